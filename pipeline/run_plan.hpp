@@ -24,9 +24,9 @@ namespace tessera::pipeline {
 
 /// @brief What a run does, chosen once, before any of its fine mesh is made.
 struct RunPlan {
-  /// In their order, from the model on. Not known yet: whether a finer coarse mesh is needed for
-  /// the sizes, and whether fills find folds. Then `coarse`, or `plan` and `fill`, follow once
-  /// more.
+  /// In their order, from the model on, each once: `coarse` comes once more if sizes need a finer
+  /// mesh, `plan` and `fill` if fills find folds. A resumed run may take the first ones from its
+  /// folder.
   StageList stages{};
   RunOutline outline{};
   std::string length_unit{};  ///< output_length_unit().

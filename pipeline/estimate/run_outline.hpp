@@ -21,7 +21,7 @@ namespace tessera::pipeline {
 [[nodiscard]] bool divides_corners(const fill::FillOptions& options,
                                    const std::vector<fill::KernelKind>& kernels);
 
-/// @brief How pieces come into being; chosen once, by plan_run().
+/// @brief How pieces come into being; for a run chosen once, by plan_run().
 struct PieceChoices {
   int splits = 0;  ///< Levels on which pieces are split after they were filled.
   /// Which tets have several faces on the geometry, and are divided, is known once they are made.

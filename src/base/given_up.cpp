@@ -20,8 +20,9 @@ void Attempts::note(const std::exception& why)
 Attempts::~Attempts()
 {
   if (num_given_up_ == 0) return;
-  std::fprintf(stderr, "given up %lld times: %s: %s\n", static_cast<long long>(num_given_up_),
-               what_.c_str(), first_reason_.c_str());
+  const std::string times =
+      num_given_up_ == 1 ? "" : " " + std::to_string(num_given_up_) + " times";
+  std::fprintf(stderr, "given up%s: %s: %s\n", times.c_str(), what_.c_str(), first_reason_.c_str());
 }
 
 }  // namespace tessera

@@ -163,7 +163,7 @@ class HierarchicalOrder {
     for (const LocalIndex s : members) {
       local_[static_cast<std::size_t>(s)] = next++;
       graph.vertex_weight.push_back(weight_[static_cast<std::size_t>(s)]);
-      graph.place.push_back(place_[at(s)]);
+      if (!place_.empty()) graph.place.push_back(place_[at(s)]);
     }
     for_each_neighbour(members, [&](LocalIndex s, LocalIndex neighbour, std::int32_t area) {
       const LocalIndex local = local_[static_cast<std::size_t>(neighbour)];
@@ -192,7 +192,7 @@ class HierarchicalOrder {
 
   const mesh::Decomposition* decomposition_;
   const GraphPartitioner* partitioner_;
-  std::vector<Vec3> place_;  // Of each subdomain.
+  std::vector<Vec3> place_;  // Of each subdomain, if the partitioner needs them.
   std::vector<std::int32_t> weight_;
   std::vector<std::int32_t> area_;
   std::vector<LocalIndex> order_;
@@ -200,7 +200,7 @@ class HierarchicalOrder {
   std::vector<LocalIndex> local_;         // shape (num_subdomains); kNoIndex between calls
 };
 
-// Of its centroids, by weight.
+// Centroids of their tets, by weight.
 std::vector<Vec3> places_of_subdomains(const TetGraph& graph,
                                        const mesh::Decomposition& decomposition)
 {
@@ -219,8 +219,9 @@ std::vector<Vec3> places_of_subdomains(const TetGraph& graph,
 Numbering hierarchical_numbers(const TetGraph& graph, const mesh::Decomposition& decomposition,
                                LocalIndex num_parts, const GraphPartitioner& partitioner)
 {
-  return HierarchicalOrder(decomposition, places_of_subdomains(graph, decomposition), partitioner)
-      .run(num_parts);
+  std::vector<Vec3> places;
+  if (partitioner.needs_places()) places = places_of_subdomains(graph, decomposition);
+  return HierarchicalOrder(decomposition, std::move(places), partitioner).run(num_parts);
 }
 
 }  // namespace

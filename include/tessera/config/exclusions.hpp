@@ -9,7 +9,7 @@
 namespace tessera::config {
 
 /// @brief What of the case faces and lines inside of solids exclude, in its own words, as
-/// `coarse.mesher = "gmsh"`; empty: nothing. It would make the surface of the model without them.
+/// `coarse.mesher = "gmsh"`; empty: nothing. What is excluded would make the surface without them.
 /// Local.
 [[nodiscard]] std::string_view excluded_by_inner_faces(const Case& given);
 

@@ -22,6 +22,9 @@ class GraphPartitioner {
   /// @throws MeshError if the partitioner gives up.
   [[nodiscard]] virtual std::vector<LocalIndex> partition(const Graph& graph,
                                                           LocalIndex num_parts) const = 0;
+
+  /// @brief Whether it asks for Graph::place.
+  [[nodiscard]] virtual bool needs_places() const { return false; }
 };
 
 /// @brief METIS with a fixed seed. @cite karypis1998

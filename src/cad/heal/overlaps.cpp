@@ -29,6 +29,7 @@
 #include <fmt/format.h>
 #include <gp_Pnt.hxx>
 
+#include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
 
 #include "cad/error.hpp"
@@ -271,8 +272,7 @@ TopoDS_Shape without_overlaps(const TopoDS_Shape& solid, CadFile& cad)
     cad.repairs.push_back(found + " and were made one");
     return body;
   } catch (const Standard_Failure& failure) {
-    cad.repairs.push_back(fmt::format("edges of a solid that lie on each other: {}: left as is",
-                                      error_of(failure).what()));
+    note_given_up("edges of a solid that lie on each other made one", error_of(failure));
     return solid;
   }
 }

@@ -21,6 +21,14 @@ double weight_of(const TetGraph& graph, std::span<const LocalIndex> tets)
   return weight;
 }
 
+std::vector<Vec3> centroids_of(const mesh::CoarseMesh& mesh, std::span<const LocalIndex> tets)
+{
+  std::vector<Vec3> centroids;
+  centroids.reserve(tets.size());
+  for (const LocalIndex t : tets) centroids.push_back(centroid_of(mesh, t));
+  return centroids;
+}
+
 std::vector<LocalIndex> parts_of_pieces(const TetGraph& graph,
                                         const std::vector<std::vector<LocalIndex>>& pieces,
                                         const std::vector<LocalIndex>& num_parts,
@@ -30,7 +38,8 @@ std::vector<LocalIndex> parts_of_pieces(const TetGraph& graph,
   std::vector<LocalIndex> local_index(tet_part.size(), kNoIndex);
   LocalIndex first_part = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const Graph dual = dual_graph(graph, pieces[p], local_index);
+    Graph dual = dual_graph(graph, pieces[p], local_index);
+    if (partitioner.needs_places()) dual.place = centroids_of(*graph.mesh, pieces[p]);
     const auto part = checked_partition(partitioner, dual, num_parts[p]);
     for (std::size_t i = 0; i < pieces[p].size(); ++i) {
       tet_part[static_cast<std::size_t>(pieces[p][i])] = first_part + part[i];

@@ -17,8 +17,8 @@ namespace {
 constexpr int kDeepest = 21;  // Halvings of the root cube: three times as many bits fit a key.
 
 // Octants are divided until they weigh no more than this part of what a part of the graph shall
-// weigh. Measured on linkrods, shaft and packing with 8 and 64 parts: with 8 and with 256 the
-// heaviest part is heavier on average, and seams are as large.
+// weigh. Measured on linkrods, shaft and packing with 8 and 64 parts: with 8 and with 256
+// octants a part the heaviest part is heavier on average, and seams are as large.
 constexpr std::int64_t kOctantsAPart = 32;
 
 using Cell = std::array<std::uint32_t, 3>;
@@ -118,6 +118,8 @@ class Octree {
 
 class OctreePartitioner final : public GraphPartitioner {
  public:
+  [[nodiscard]] bool needs_places() const override { return true; }
+
   // An octant is of the part in whose share of the whole weight its middle lies.
   [[nodiscard]] std::vector<LocalIndex> partition(const Graph& graph,
                                                   LocalIndex num_parts) const override

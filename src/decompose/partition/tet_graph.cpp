@@ -101,7 +101,6 @@ Graph dual_graph(const TetGraph& graph, std::span<const LocalIndex> tets,
     }
     dual.offsets.push_back(static_cast<LocalIndex>(dual.neighbours.size()));
     dual.vertex_weight.push_back(graph.tet_int_weight[static_cast<std::size_t>(t)]);
-    dual.place.push_back(centroid_of(*graph.mesh, t));
   }
   for (const LocalIndex t : tets) local_index[static_cast<std::size_t>(t)] = kNoIndex;
   return dual;
