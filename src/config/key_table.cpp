@@ -155,7 +155,7 @@ constexpr Key kOtherKeys[] = {
          "How planes are chosen, with decompose.method = \"geometry\". \"clear\": the best of "
          "many, which are balanced and stay away from corners and faces that they do not "
          "cross; a part that none cuts well stays whole. \"pca\": through the centre of mass, "
-         "across the longest axis. \"random\": through the centre of mass, in any direction.",
+         "across the longest axis.",
      .reason = "a plane in a bad place leaves thin slices, and these tiny tets"},
 
     {.name = "refine.levels",

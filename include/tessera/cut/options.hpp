@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -15,11 +14,10 @@ namespace tessera::cut {
 
 /// @brief By which rule planes are chosen.
 enum class PlaneRule : int {
-  clear,   ///< The best of many: balanced, clear of features, at large angles, of little area.
-  pca,     ///< Through the centre of mass, across the longest axis of inertia.
-  random,  ///< Through the centre of mass, in a random direction.
+  clear,  ///< The best of many: balanced, clear of features, at large angles, of little area.
+  pca,    ///< Through the centre of mass, across the longest axis of inertia.
 };
-[[nodiscard]] constexpr PlaneRule last_value(PlaneRule /*type*/) { return PlaneRule::random; }
+[[nodiscard]] constexpr PlaneRule last_value(PlaneRule /*type*/) { return PlaneRule::pca; }
 
 /// @brief Words of the rule in case files and reports.
 constexpr auto enum_words(PlaneRule /*tag*/)
@@ -27,7 +25,6 @@ constexpr auto enum_words(PlaneRule /*tag*/)
   return std::to_array<EnumWord<PlaneRule>>({
       {PlaneRule::clear, "clear"},
       {PlaneRule::pca, "pca"},
-      {PlaneRule::random, "random"},
   });
 }
 
@@ -37,11 +34,10 @@ struct CutOptions {
   LocalIndex parts = 1;        ///< Wanted number of parts, >= 1; each solid has at least one.
   double coarse_size = 0.0;    ///< Edge length of the coarse mesh, file length unit, > 0.
   std::vector<Plane> given{};  ///< Cut every part that they cross, in this order, before the rule.
-  std::uint64_t seed = 1;      ///< Of the rule `random`.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.rule, self.parts, self.coarse_size, self.given, self.seed);
+    return std::tie(self.rule, self.parts, self.coarse_size, self.given);
   }
 
   friend bool operator==(const CutOptions&, const CutOptions&) = default;

@@ -257,10 +257,11 @@ TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
     }
     EXPECT_EQ(key.words.size() == 2,
               key.name == "coarse.optimize" || key.name == "improve.seams"
-                  || key.name == "geometry.smooth" || key.name == "geometry.repair"
-                  || key.name == "geometry.loose_faces" || key.name == "geometry.loose_curves"
-                  || key.name == "coarse.mesher" || key.name == "output.cell_quality"
-                  || key.name == "output.layers" || key.name == "output.report_html")
+                  || key.name == "decompose.planes" || key.name == "geometry.smooth"
+                  || key.name == "geometry.repair" || key.name == "geometry.loose_faces"
+                  || key.name == "geometry.loose_curves" || key.name == "coarse.mesher"
+                  || key.name == "output.cell_quality" || key.name == "output.layers"
+                  || key.name == "output.report_html")
         << key.name;
   }
 }

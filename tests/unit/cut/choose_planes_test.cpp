@@ -142,18 +142,6 @@ TEST(ChoosePlanes, PcaHalvesABoxAcrossItsLength)
   EXPECT_NEAR(choice.report.planes.front().angle_deg, 90.0, 1e-6);
 }
 
-TEST(ChoosePlanes, RandomDependsOnItsSeedAlone)
-{
-  const model::ModelDescription model = testing::l_shape();
-  const auto tree = [&](std::uint64_t seed) {
-    return choose_checked(model,
-                          {.rule = PlaneRule::random, .parts = 6, .coarse_size = 0.3, .seed = seed})
-        .tree;
-  };
-  EXPECT_EQ(tree(1), tree(1));
-  EXPECT_NE(tree(1), tree(2));
-}
-
 TEST(ChoosePlanes, TheOrderOfTrianglesChangesNoBit)
 {
   for (const model::ModelDescription& model : samples()) {
