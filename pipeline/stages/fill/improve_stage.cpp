@@ -308,12 +308,28 @@ class SeamImprover {
   std::int64_t num_done_ = 0;
 };
 
+// Two subdomains of a material that are not subdivided. Where there are seams, nearly always some
+// do: that is quicker to see than all regions are to make. A material has one kernel.
+bool share_a_triangle(const subdomain::PartitionedMesh& cut,
+                      const std::vector<fill::KernelKind>& kernels)
+{
+  const std::vector<LocalIndex>& material = cut.decomposition.subdomain_material;
+  for (LocalIndex t = 0; t < cut.skeleton.num_triangles(); ++t) {
+    const LocalIndex a = cut.skeleton.triangle_subdomains[2 * at(t)];
+    const LocalIndex b = cut.skeleton.triangle_subdomains[2 * at(t) + 1];
+    if (a == kNoIndex || b == kNoIndex || a == b || material[at(a)] != material[at(b)]) continue;
+    if (kernels[at(a)] != fill::KernelKind::subdivide) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool have_seams_to_improve(const subdomain::PartitionedMesh& cut,
                            const std::vector<fill::KernelKind>& kernels)
 {
   if (are_counts_known(kernels)) return false;
+  if (share_a_triangle(cut, kernels)) return true;
   const improve::SeamRegions regions(cut.skeleton, cut.decomposition);
   return total_size(wanted_regions(regions, kernels)) > 0;
 }

@@ -11,8 +11,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief Whether two subdomains of a material meet that are not subdivided. Local; O(n log n) in
-/// the skeleton's triangles.
+/// @brief Whether two subdomains of a material meet that are not subdivided. Local; O(n) in the
+/// skeleton's triangles if some share one, else O(n log n).
 /// @param[in] kernels By subdomain, as the case wants them.
 [[nodiscard]] bool have_seams_to_improve(const subdomain::PartitionedMesh& cut,
                                          const std::vector<fill::KernelKind>& kernels);

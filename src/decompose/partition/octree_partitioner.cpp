@@ -56,9 +56,8 @@ std::uint64_t hilbert_key(Cell cell)
 std::vector<std::uint64_t> hilbert_keys(const std::vector<Vec3>& places)
 {
   constexpr double kNumCells = 1U << kDeepest;
-  Box box;
-  for (const Vec3& place : places) box.include(place);
-  const double size = std::ranges::max(box.high - box.low);
+  const Box box = bounding_box(places);
+  const double size = std::ranges::max(box.extent());
   const double cells_a_unit = size > 0.0 ? kNumCells / size : 0.0;
   std::vector<std::uint64_t> keys;
   keys.reserve(places.size());
