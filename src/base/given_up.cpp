@@ -20,9 +20,8 @@ void Attempts::note(const std::exception& why)
 Attempts::~Attempts()
 {
   if (num_given_up_ == 0) return;
-  const std::string times =
-      num_given_up_ == 1 ? "" : " " + std::to_string(num_given_up_) + " times";
-  std::fprintf(stderr, "given up%s: %s: %s\n", times.c_str(), what_.c_str(), first_reason_.c_str());
+  const std::string times = num_given_up_ == 1 ? "" : fmt::format(" {} times", num_given_up_);
+  fmt::print(stderr, "given up{}: {}: {}\n", times, what_, first_reason_);
 }
 
 }  // namespace tessera
