@@ -326,8 +326,6 @@ void complete_layers(Case& loaded, const std::string& where)
 void check_layers(const Case& loaded, const std::string& where)
 {
   if (loaded.layers.empty()) return;
-  const std::string defect = layers::defect_of_all(loaded.layers);
-  if (!defect.empty()) fail(where, "[[layer]]: " + defect);
   const std::string_view other = loaded.output.order == 2 ? "output.order = 2"
                                  : asks_for_split(loaded) ? "fill.levels below refine.levels"
                                  : loaded.geometry.smooth ? "geometry.smooth"

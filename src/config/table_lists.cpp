@@ -269,14 +269,14 @@ constexpr Key kLayerKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.layers.back().first; }, 0.0,
                       Bound::exclusive, kHuge, Bound::inclusive},
      .unit = "output length unit",
-     .meaning = "Height of the layer at the wall. Entries may differ in it; where their patches "
-                "meet, the smaller one holds.",
+     .meaning = "Height of the layer at the wall. Where patches of several entries meet, the one "
+                "holds whose layers are thinnest together.",
      .reason = "it follows from the flow",
      .example = "0.01"},
     {.name = "layer.growth",
      .rule = RealRule{[](Case& c) -> double& { return c.layers.back().growth; }, 1.0,
                       Bound::inclusive, 3.0, Bound::inclusive},
-     .meaning = "Height of a layer by that of the one nearer to the wall. The same in all entries.",
+     .meaning = "Height of a layer by that of the one nearer to the wall.",
      .reason = "what flow solvers recommend",
      .derived_default = "1.2",
      .example = "1.2",
@@ -284,8 +284,8 @@ constexpr Key kLayerKeys[] = {
     {.name = "layer.count",
      .rule =
          IntegerRule{[](Case& c) -> int& { return c.layers.back().count; }, 1, layers::kMostLayers},
-     .meaning = "Number of layers in the final mesh, whatever the levels. The same in all entries. "
-                "Either this or thickness.",
+     .meaning =
+         "Number of layers in the final mesh, whatever the levels. Either this or thickness.",
      .reason = "so the last layer is about as high as the tets inside",
      .derived_default = "as many as lead up to size.target",
      .example = "5",

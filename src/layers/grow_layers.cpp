@@ -127,17 +127,33 @@ LayerCover measure(const mesh::CoarseMesh& mesh, const WallMover& mover)
   return all;
 }
 
-mesh::WallLayers layers_of(const mesh::CoarseMesh& mesh, const WallMover& mover,
-                           const std::vector<LocalIndex>& entries, std::vector<double> ends)
+// Entries whose layers end at the same parts share a stack. @return Which one each entry has.
+std::vector<LocalIndex> make_stacks(std::span<const LayerOptions> options, mesh::WallLayers& layers)
 {
-  mesh::WallLayers layers;
+  for (const LayerOptions& one : options) {
+    layers.most_layers = std::max<LocalIndex>(layers.most_layers, num_layers(one));
+  }
+  std::map<std::vector<double>, LocalIndex> stacks;
+  std::vector<LocalIndex> of_entry;
+  for (const LayerOptions& one : options) {
+    std::vector<double> ends = layer_ends(one);
+    ends.insert(ends.begin(), at(layers.most_layers) - ends.size(), 0.0);
+    const auto next = static_cast<LocalIndex>(stacks.size());
+    const auto [found, is_new] = stacks.try_emplace(std::move(ends), next);
+    if (is_new) layers.ends.insert(layers.ends.end(), found->first.begin(), found->first.end());
+    of_entry.push_back(found->second);
+  }
+  return of_entry;
+}
+
+void note_columns(const mesh::CoarseMesh& mesh, const WallMover& mover, mesh::WallLayers& layers)
+{
   layers.wall_xyz = mesh.vertex_xyz;
+  layers.vertex_stack.resize(at(mesh.num_vertices()), 0);
   for (const WallVertex& vertex : mover.walls().vertices) {
     std::ranges::copy(vertex.wall, &layers.wall_xyz[3 * at(vertex.vertex)]);
+    layers.vertex_stack[at(vertex.vertex)] = vertex.stack;
   }
-  for (const LocalIndex entry : entries) layers.patch_is_wall.push_back(entry == kNoIndex ? 0 : 1);
-  layers.ends = std::move(ends);
-  return layers;
 }
 
 }  // namespace
@@ -153,14 +169,16 @@ LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> opt
                        const model::Model& model, bool keep_tets)
 {
   const std::vector<LocalIndex> entries = entries_of_patches(mesh, options);
-  if (const std::string defect = defect_of_all(options); !defect.empty()) throw ConfigError(defect);
   require_thinner_than_model(mesh, options);
-  std::vector<double> heights;
-  for (const LocalIndex entry : entries) {
-    heights.push_back(entry == kNoIndex ? 0.0 : thickness(options[at(entry)]));
+  mesh::WallLayers layers;
+  const std::vector<LocalIndex> stacks = make_stacks(options, layers);
+  std::vector<PatchLayers> patches(entries.size());
+  for (std::size_t p = 0; p < entries.size(); ++p) {
+    layers.patch_is_wall.push_back(entries[p] == kNoIndex ? 0 : 1);
+    if (entries[p] == kNoIndex) continue;
+    patches[p] = {.thickness = thickness(options[at(entries[p])]), .stack = stacks[at(entries[p])]};
   }
-  std::vector<double> ends = layer_ends(options.front());
-  WallMover mover(mesh, model, find_walls(mesh, heights), ends);
+  WallMover mover(mesh, model, find_walls(mesh, patches), layers);
   if (mover.walls().vertices.empty()) {
     throw ConfigError("the patches that are named have no triangle in the coarse mesh");
   }
@@ -170,7 +188,8 @@ LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> opt
   }
   mover.update_parameters();
   const LayerCover cover = measure(mesh, mover);
-  mesh.layers = layers_of(mesh, mover, entries, std::move(ends));
+  note_columns(mesh, mover, layers);
+  mesh.layers = std::move(layers);
   mesh::validate(mesh);
   return cover;
 }

@@ -27,18 +27,25 @@ std::vector<bool> ends_of_unlike_edges(const mesh::CoarseMesh& mesh,
 }
 
 // Each member knows only the triangles on its own side, so together they see all around.
-Vec3 common_column(std::span<const LocalIndex> members, const mesh::VertexOrbits& orbits,
-                   const WallSurface& walls)
+Vec3 common_direction(std::span<const LocalIndex> members, const mesh::VertexOrbits& orbits,
+                      const WallSurface& walls)
 {
   Vec3 sum{};
-  double length = 0.0;
   for (const LocalIndex v : members) {
-    const Vec3& column = walls.vertices[at(walls.wall_of_vertex[at(v)])].column;
-    const Vec3 direction = unit(column);
+    const Vec3 direction = unit(walls.vertices[at(walls.wall_of_vertex[at(v)])].column);
     sum = sum + orbits.images[at(orbits.vertices.image_of(v))].inverse().turned(direction);
-    length = length == 0.0 ? norm(column) : std::min(length, norm(column));
   }
-  return length * unit(sum);
+  return unit(sum);
+}
+
+// The one whose column is shortest.
+const WallVertex& shortest(std::span<const LocalIndex> members, const WallSurface& walls)
+{
+  const auto vertex = [&](LocalIndex v) -> const WallVertex& {
+    return walls.vertices[at(walls.wall_of_vertex[at(v)])];
+  };
+  return vertex(
+      *std::ranges::min_element(members, {}, [&](LocalIndex v) { return norm(vertex(v).column); }));
 }
 
 }  // namespace
@@ -59,11 +66,18 @@ void join_image_columns(const mesh::CoarseMesh& mesh, const std::set<WallEdge>& 
       return row_of(v) != kNoIndex && !is_end[at(v)]
              && walls.vertices[at(row_of(v))].column != Vec3{};
     });
-    const Vec3 column = is_alike ? common_column(members, orbits, walls) : Vec3{};
+    Vec3 column{};
+    LocalIndex stack = 0;
+    if (is_alike) {
+      const WallVertex& leader = shortest(members, walls);
+      column = norm(leader.column) * common_direction(members, orbits, walls);
+      stack = leader.stack;
+    }
     for (const LocalIndex v : members) {
       if (row_of(v) == kNoIndex) continue;
       WallVertex& vertex = walls.vertices[at(row_of(v))];
       vertex.column = Vec3{};
+      vertex.stack = stack;
       if (!is_alike) continue;
       vertex.origin = row_of(base);
       vertex.image = orbits.vertices.image_of(v);

@@ -41,19 +41,6 @@ std::string defect_of(const LayerOptions& options)
                      num_layers(options), options.growth);
 }
 
-std::string defect_of_all(std::span<const LayerOptions> options)
-{
-  const LayerOptions& first = options.front();
-  for (const LayerOptions& one : options) {
-    if (num_layers(one) == num_layers(first) && one.growth == first.growth) continue;
-    return fmt::format(
-        "\"{}\" has {} layers that grow by {:g}, and \"{}\" {} by {:g}; all entries must have the "
-        "same count and growth, and only first may differ",
-        first.patch, num_layers(first), first.growth, one.patch, num_layers(one), one.growth);
-  }
-  return {};
-}
-
 bool is_complete(const LayerOptions& options)
 {
   return options.count > 0 || options.thickness > 0.0;

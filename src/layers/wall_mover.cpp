@@ -31,8 +31,8 @@ std::array<Vec3, 4> corners_of(const mesh::CoarseMesh& mesh, LocalIndex tet)
 }  // namespace
 
 WallMover::WallMover(mesh::CoarseMesh& mesh, const model::Model& model, WallSurface walls,
-                     std::span<const double> ends)
-    : mesh_(mesh), model_(model), walls_(std::move(walls)), ends_(ends)
+                     const mesh::WallLayers& layers)
+    : mesh_(mesh), model_(model), walls_(std::move(walls)), layers_(layers)
 {
   part_.assign(walls_.vertices.size(), 0.0);
   find_tets();
@@ -152,11 +152,11 @@ bool WallMover::is_bad_column(const SurfaceTriangle& triangle) const
 {
   std::array<Vec3, 3> low{};
   for (std::size_t c = 0; c < 3; ++c) low[c] = mesh_.position(triangle.vertices[c]);
-  for (const double end : ends_) {
+  for (LocalIndex layer = 0; layer < layers_.most_layers; ++layer) {
     std::array<Vec3, 3> high{};
     for (std::size_t c = 0; c < 3; ++c) {
       const LocalIndex v = triangle.vertices[c];
-      high[c] = column_point(walls_.vertices[at(walls_.wall_of_vertex[at(v)])], end);
+      high[c] = column_point(walls_.vertices[at(walls_.wall_of_vertex[at(v)])], layer);
     }
     if (!mesh::has_positive_parts(low, high)) return true;
     low = high;
@@ -165,8 +165,10 @@ bool WallMover::is_bad_column(const SurfaceTriangle& triangle) const
 }
 
 // Where a layer ends: on the curve or patch that the column goes along.
-Vec3 WallMover::column_point(const WallVertex& vertex, double end) const
+Vec3 WallMover::column_point(const WallVertex& vertex, LocalIndex layer) const
 {
+  const double end = layers_.ends_of(vertex.stack)[at(layer)];
+  if (end == 0.0) return mesh_.position(vertex.vertex);
   const Vec3 column = mesh_.position(vertex.vertex) - vertex.wall;
   return end == 1.0 || column == Vec3{} ? vertex.wall
                                         : beside_wall(vertex, vertex.wall + (1.0 - end) * column);

@@ -14,10 +14,10 @@ namespace tessera::layers {
 /// @brief Moves the vertices on walls along their columns, as far as nothing gets bad.
 class WallMover {
  public:
-  /// @param[in] mesh, model Borrowed. @param[in] walls Of the mesh. @param[in] ends As of
-  /// mesh::WallLayers.
+  /// @param[in] mesh, model, layers Borrowed; of the layers, the stacks. @param[in] walls Of the
+  /// mesh.
   WallMover(mesh::CoarseMesh& mesh, const model::Model& model, WallSurface walls,
-            std::span<const double> ends);
+            const mesh::WallLayers& layers);
 
   /// @brief Moves every vertex to that part of its column, or as far as it can go.
   /// @throws GeometryError if a projection fails.
@@ -35,7 +35,7 @@ class WallMover {
  private:
   [[nodiscard]] Vec3 place_of(const WallVertex& vertex, double part) const;
   [[nodiscard]] Vec3 place_of_image(const WallVertex& vertex, double part) const;
-  [[nodiscard]] Vec3 column_point(const WallVertex& vertex, double end) const;
+  [[nodiscard]] Vec3 column_point(const WallVertex& vertex, LocalIndex layer) const;
   /// The point on the curve or patch without layers, if there is one.
   [[nodiscard]] Vec3 beside_wall(const WallVertex& vertex, const Vec3& point) const;
   void place(std::span<const double> parts);
@@ -50,7 +50,7 @@ class WallMover {
   mesh::CoarseMesh& mesh_;
   const model::Model& model_;
   WallSurface walls_;
-  std::span<const double> ends_;
+  const mesh::WallLayers& layers_;
   std::vector<double> part_{};         ///< By row of walls_.vertices: how far along its column;
                                        ///< counts where a vertex is its own origin.
   std::vector<LocalIndex> tets_{};     ///< With a vertex on a wall.

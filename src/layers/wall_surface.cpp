@@ -74,8 +74,8 @@ WallEdge edge_between(LocalIndex a, LocalIndex b) { return {std::min(a, b), std:
 // What is known around the vertices of walls.
 class WallFinder {
  public:
-  WallFinder(const mesh::CoarseMesh& mesh, std::span<const double> thickness)
-      : mesh_(mesh), thickness_(thickness)
+  WallFinder(const mesh::CoarseMesh& mesh, std::span<const PatchLayers> patches)
+      : mesh_(mesh), patches_(patches)
   {
   }
 
@@ -99,7 +99,7 @@ class WallFinder {
  private:
   [[nodiscard]] bool is_wall(LocalIndex face) const
   {
-    return thickness_[at(mesh_.face_patch[at(face)])] > 0.0;
+    return patches_[at(mesh_.face_patch[at(face)])].thickness > 0.0;
   }
 
   void find_vertices()
@@ -184,7 +184,7 @@ class WallFinder {
     std::vector<Vec3> inward;
     std::map<LocalIndex, Vec3> of_patch;
     std::vector<LocalIndex> sides;
-    double height = 0.0;
+    LocalIndex thinnest = kNoIndex;
     for (const LocalIndex row : around) {
       const SurfaceTriangle& triangle = surface_.triangles[at(row)];
       const LocalIndex patch = mesh_.face_patch[at(triangle.face)];
@@ -194,7 +194,7 @@ class WallFinder {
       }
       inward.push_back(-1.0 * triangle.normal);
       of_patch[patch] = of_patch[patch] - angle_at(triangle, vertex.vertex) * triangle.normal;
-      height = height == 0.0 ? thickness_[at(patch)] : std::min(height, thickness_[at(patch)]);
+      thinnest = thinner(thinnest, patch);
     }
     sort_unique(sides);
     const Vec3 direction = direction_at(vertex, around, sides, inward);
@@ -206,7 +206,18 @@ class WallFinder {
     for (const auto& [patch, normal] : of_patch) {
       lean = std::max(lean, 1.0 / std::max(dot(unit(normal), direction), 1.0 / kMostLean));
     }
-    vertex.column = (height * lean) * direction;
+    vertex.column = (patches_[at(thinnest)].thickness * lean) * direction;
+    vertex.stack = patches_[at(thinnest)].stack;
+  }
+
+  // Of two patches with layers; `a` may be kNoIndex.
+  [[nodiscard]] LocalIndex thinner(LocalIndex a, LocalIndex b) const
+  {
+    const auto key = [&](LocalIndex patch) {
+      const PatchLayers& layers = patches_[at(patch)];
+      return std::pair(layers.thickness, layers.stack);
+    };
+    return a == kNoIndex || key(b) < key(a) ? b : a;
   }
 
   // Radians.
@@ -274,7 +285,7 @@ class WallFinder {
   }
 
   const mesh::CoarseMesh& mesh_;
-  std::span<const double> thickness_;
+  std::span<const PatchLayers> patches_;
   WallSurface surface_{};
   std::set<WallEdge> edges_on_walls_{};
   std::set<LocalIndex> on_acute_edge_{};
@@ -293,9 +304,9 @@ double triangle_shape(const std::array<Vec3, 3>& corners)
   return norm(normal_of(corners)) / longest;
 }
 
-WallSurface find_walls(const mesh::CoarseMesh& mesh, std::span<const double> thickness)
+WallSurface find_walls(const mesh::CoarseMesh& mesh, std::span<const PatchLayers> patches)
 {
-  return WallFinder(mesh, thickness).run();
+  return WallFinder(mesh, patches).run();
 }
 
 }  // namespace tessera::layers

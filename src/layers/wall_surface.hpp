@@ -17,6 +17,7 @@ struct WallVertex {
   LocalIndex vertex = kNoIndex;   ///< Of the coarse mesh.
   Vec3 wall{};                    ///< Where it is on the wall.
   Vec3 column{};                  ///< To where the tets should begin; zero: there is no way.
+  LocalIndex stack = 0;           ///< The layers of its column, a row of mesh::WallLayers::ends.
   LocalIndex patch = kNoIndex;    ///< Without layers; the column goes along it.
   LocalIndex curve = kNoIndex;    ///< Between such patches; the column goes along it.
   double t = 0.0;                 ///< Of `wall` on the curve.
@@ -48,13 +49,20 @@ struct WallSurface {
   std::vector<Affine> images{};  ///< The first is the identity.
 };
 
+/// @brief The layers of one patch.
+struct PatchLayers {
+  double thickness = 0.0;  ///< 0: none.
+  LocalIndex stack = 0;    ///< Row of mesh::WallLayers::ends.
+};
+
 /// @brief Finds walls and the columns on them. Local.
 ///
-/// Columns on periodic sides that are images of each other are alike. There is none where a wall
-/// goes on across the side as a patch without layers.
-/// @param[in] thickness Shape (num_patches): of the layers; 0: none.
+/// Where patches with layers meet, columns are those of the thinnest ones. Columns on periodic
+/// sides that are images of each other are alike. There is none where a wall goes on across the
+/// side as a patch without layers.
+/// @param[in] patches Shape (num_patches).
 /// @pre No wall lies between two materials, or is a periodic side.
 [[nodiscard]] WallSurface find_walls(const mesh::CoarseMesh& mesh,
-                                     std::span<const double> thickness);
+                                     std::span<const PatchLayers> patches);
 
 }  // namespace tessera::layers

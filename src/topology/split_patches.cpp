@@ -38,6 +38,7 @@ class Opener {
     mesh_.tet_vertices = std::move(tets);
     mesh_.vertex_xyz = copied(mesh_.vertex_xyz);
     mesh_.layers.wall_xyz = copied(mesh_.layers.wall_xyz);
+    open_stacks();
     open_edges(levels);
   }
 
@@ -56,6 +57,14 @@ class Opener {
       all.insert(all.end(), &xyz[3 * at(v)], &xyz[3 * at(v)] + 3);
     }
     return all;
+  }
+
+  void open_stacks()
+  {
+    if (mesh_.layers.are_none()) return;
+    FlatArray<LocalIndex> stacks;
+    for (const LocalIndex v : origin_) stacks.push_back(mesh_.layers.vertex_stack[at(v)]);
+    mesh_.layers.vertex_stack = std::move(stacks);
   }
 
   // What is opened of a patch is patches of its own, unless it is all of it: then that is one side.

@@ -222,6 +222,55 @@ class Room(LayersTest):
         self.assertGreater(figures["layers"]["num_tets"], 0)
 
 
+class SeveralEntries(LayersTest):
+    """A box: three layers at its floor, six thinner ones at a wall beside it, one at the wall across."""
+
+    BOX = (
+        "algebraic3d\nsolid box = plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 0; -1, 0, 0) and plane (1, 1, 1; 1, 0, 0)\n"
+        "  and plane (0, 0, 0; 0, -1, 0) and plane (1, 1, 1; 0, 1, 0) and plane (1, 1, 1; 0, 0, 1);\ntlo box;\n"
+    )
+    ENTRIES = (("patch_1", 0.02, 1.5, 3), ("patch_2", 0.004, 1.3, 6), ("patch_3", 0.05, 1.2, 1))
+
+    def box(self, more=""):
+        self.write("box.geo", self.BOX)
+        layers = "".join(
+            f"[[layer]]\npatch = '{name}'\nfirst = {first}\ngrowth = {growth}\ncount = {count}\n"
+            for name, first, growth, count in self.ENTRIES)
+        return self.write(
+            "box.toml", f"geometry.file = 'box.geo'\ncoarse.max_size = 0.3\ndecompose.subdomains = 5\n"
+            f"refine.levels = 1\n{program.NO_PAGE}{more}{layers}")
+
+    def test_have_layers_of_their_own_that_meet(self):
+        case = self.box()
+        alone = self.mesh(case, "alone")
+        figures = self.checked(alone)
+        self.assertEqual(figures["layers"]["count"], 6)
+        for ranks in (2, 3):
+            other = self.mesh(case, f"out_{ranks}", ranks=ranks)
+            self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
+        layers = grid_of(alone / "mesh.pvtu")
+        layer = vtk_to_numpy(layers.GetCellData().GetArray("layer"))
+        for axis, at_wall, (_, first, growth, count) in zip((2, 0, 0), (0.0, 0.0, 1.0), self.ENTRIES):
+            ends = numpy.cumsum([0.0] + [first * growth**i for i in range(count)])
+            # In the middle of the wall, away from the others.
+            for cell in numpy.flatnonzero(layer):
+                points = numpy.array(points_of(layers, cell))
+                away = numpy.abs(points[:, axis] - at_wall)
+                others = numpy.delete(points, axis, axis=1)
+                if away.max() > ends[-1] + 1e-9 or others.min() < 0.35 or others.max() > 0.65:
+                    continue
+                self.assertAlmostEqual(away.min(), ends[layer[cell] - 1], places=9)
+                self.assertAlmostEqual(away.max(), ends[layer[cell]], places=9)
+
+    def test_are_prisms_in_other_formats(self):
+        out = self.mesh(self.box("output.formats = ['openfoam-serial']\n"), "out", ranks=2)
+        figures = self.checked(out)
+        mesh = PolyMesh(out)
+        self.assertEqual(mesh.num_cells(), figures["num_cells"])
+        self.assertGreater(mesh.cell_volumes().min(), 0.0)
+        self.assertAlmostEqual(mesh.cell_volumes().sum(), 1.0, places=9)
+
+
 class Refused(LayersTest):
     def test_is_what_names_no_patch_or_several(self):
         outcome = self.run_program("mesh", self.case(patch="inlet"), "--output", "out", ranks=2)

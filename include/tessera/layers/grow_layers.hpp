@@ -53,9 +53,8 @@ struct LayerCover {
 /// @cite badoiu2008  The direction that sees all triangles around a vertex best.
 /// @param[in] keep_tets  Tets stay who they are: none is flipped or merged.
 /// @pre mesh::validate() accepts the mesh; it has no layers. @post mesh::validate() accepts it.
-/// @throws ConfigError if an entry fits no patch, several fit one, they differ in count or growth,
-/// a patch lies between two materials or on a periodic side, or the layers are thicker than the
-/// model.
+/// @throws ConfigError if an entry fits no patch, several fit one, a patch lies between two
+/// materials or on a periodic side, or the layers are thicker than the model.
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> options,
                                      const model::Model& model, bool keep_tets);

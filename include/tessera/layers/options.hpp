@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -37,10 +36,6 @@ inline constexpr int kMostLayers = 100;
 /// @brief The number of layers that lead up to tets of edge length `size`: these are about as high
 /// as one more layer would be. 0 if layers do not grow, and so never get there. Local.
 [[nodiscard]] int count_up_to(const LayerOptions& options, double size);
-
-/// @brief What is wrong with several entries together, or empty: patches may meet, and a column has
-/// one number of layers. Local.
-[[nodiscard]] std::string defect_of_all(std::span<const LayerOptions> options);
 
 /// @brief Number of layers: `count`, or what comes nearest to `thickness`, at least one. Local.
 /// @pre is_complete(), here and below.

@@ -55,6 +55,14 @@ struct TrianglePoint {
   LocalIndex j = 0;
 };
 
+/// @brief The inner point at a place: the inverse of inner_triangle_index().
+[[nodiscard]] constexpr TrianglePoint inner_triangle_point(LocalIndex n, LocalIndex index) noexcept
+{
+  LocalIndex j = 1;
+  for (; index >= n - 1 - j; ++j) index -= n - 1 - j;
+  return {index + 1, j};
+}
+
 /// @brief Point k of side `side` of a triangle, counted from the side's lower vertex. Side 0 joins
 /// v0 v1, side 1 joins v0 v2, side 2 joins v1 v2.
 [[nodiscard]] constexpr TrianglePoint side_point(LocalIndex n, std::size_t side,

@@ -16,7 +16,8 @@ namespace tessera::mesh {
 /// @brief The points of layers over the vertices of a piece, by the names of these vertices.
 struct Columns {
   std::vector<HostPoint> vertices{};  ///< Shape (num_columns), ascending.
-  std::vector<double> point_xyz{};    ///< Shape (num_columns, num_layers, 3), towards the wall.
+  std::vector<double> point_xyz{};    ///< Shape (num_columns, most_layers, 3), towards the wall;
+                                      ///< where layers are missing, the end of the column.
 
   static auto fields(auto& self) { return std::tie(self.vertices, self.point_xyz); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "tessera/base/flat_array.hpp"
@@ -15,18 +17,34 @@ namespace tessera::mesh {
 /// of the geometry in front of it. A fine vertex on a wall has one, too. Its point on the geometry
 /// is found as without layers, and its vector is interpolated from those of the coarse vertices. So
 /// heights hold on curved walls. Without layers all arrays are empty.
+///
+/// A *stack* says where the layers of a column end. Layers are counted from the tets to the wall,
+/// of all columns alike: of a stack with fewer layers than another one, those at the tets are
+/// missing.
 struct WallLayers {
   /// Shape (num_vertices, 3): where the column of each coarse vertex ends, on the geometry; the
   /// vertex itself where there is no column. Output length unit.
   FlatArray<double> wall_xyz{};
-  FlatArray<char> patch_is_wall{};  ///< Shape (num_patches).
-  /// Shape (num_layers): where the layers end, as parts of a column. The tets are at 0; ascending;
-  /// the last one is 1, the wall.
+  FlatArray<char> patch_is_wall{};       ///< Shape (num_patches).
+  FlatArray<LocalIndex> vertex_stack{};  ///< Shape (num_vertices): what its column has; 0 where
+                                         ///< there is none.
+  LocalIndex most_layers = 0;            ///< Of all stacks.
+  /// Shape (num_stacks, most_layers): where the layers end, as parts of a column. The tets are at
+  /// 0, as are the layers that are missing; else ascending; the last one is 1, the wall.
   FlatArray<double> ends{};
 
-  static auto fields(auto& self) { return std::tie(self.wall_xyz, self.patch_is_wall, self.ends); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.wall_xyz, self.patch_is_wall, self.vertex_stack, self.most_layers,
+                    self.ends);
+  }
 
-  [[nodiscard]] LocalIndex num_layers() const { return static_cast<LocalIndex>(ends.size()); }
+  /// @brief Where the layers of a stack end: its row of `ends`.
+  [[nodiscard]] std::span<const double> ends_of(LocalIndex stack) const
+  {
+    return std::span(ends).subspan(at(stack) * at(most_layers), at(most_layers));
+  }
+
   [[nodiscard]] bool are_none() const { return ends.empty(); }
 
   /// @brief Whether a patch has layers. `patch` may be kNoIndex.
@@ -37,6 +55,13 @@ struct WallLayers {
 
   /// @brief End of the column of vertex `v`. @pre !are_none().
   [[nodiscard]] Vec3 wall(LocalIndex v) const { return point_at(std::span(wall_xyz), v); }
+
+  /// @brief Number of layers of a stack. @pre !are_none().
+  [[nodiscard]] LocalIndex num_layers(LocalIndex stack) const
+  {
+    const auto missing = std::ranges::count(ends_of(stack), 0.0);
+    return most_layers - static_cast<LocalIndex>(missing);
+  }
 };
 
 }  // namespace tessera::mesh

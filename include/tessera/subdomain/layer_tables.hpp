@@ -29,10 +29,12 @@ struct LayerSide {
   bool is_outside = true;  ///< Else it lies between two materials.
 };
 
-/// @brief Whether columns stand on the fine vertices of a host: it lies on a wall, and a column of
-/// a coarse vertex of it has a length. Local. @pre host is the skeleton's; the mesh has layers.
-[[nodiscard]] bool has_columns(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
-                               const mesh::HostLayout& hosts, mesh::HostEntity host);
+/// @brief Number of layers of the columns on the fine vertices of a host: the most that a coarse
+/// vertex of it has. 0: it lies on no wall, or no column of a coarse vertex of it has a length.
+/// Local. @pre host is the skeleton's; the mesh has layers.
+[[nodiscard]] LocalIndex num_layers_on(const mesh::CoarseMesh& coarse,
+                                       const mesh::Skeleton& skeleton,
+                                       const mesh::HostLayout& hosts, mesh::HostEntity host);
 
 /// @brief Counts of all layers, in closed form. Made by every process for itself.
 class LayerTables {
@@ -42,22 +44,22 @@ class LayerTables {
   LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
               const mesh::LatticeLevels& levels);
 
-  [[nodiscard]] LocalIndex num_layers() const { return coarse_->layers.num_layers(); }
+  /// @brief Of any column, the most.
+  [[nodiscard]] LocalIndex most_layers() const { return coarse_->layers.most_layers; }
 
-  /// @brief As the function of that name.
-  [[nodiscard]] bool has_columns(mesh::HostEntity host) const
-  {
-    return first_column_[at(host)] != first_column_[at(host) + 1];
-  }
+  /// @brief As num_layers_on().
+  [[nodiscard]] LocalIndex num_layers(mesh::HostEntity host) const { return num_layers_[at(host)]; }
+
+  [[nodiscard]] bool has_columns(mesh::HostEntity host) const { return num_layers(host) > 0; }
 
   /// @brief Points of all columns.
-  [[nodiscard]] GlobalIndex num_points() const { return first_column_.back() * num_layers(); }
+  [[nodiscard]] GlobalIndex num_points() const { return first_point_.back(); }
 
-  /// @brief Number of a point among them. @param[in] layer Ends at it, from 0 at the tets.
+  /// @brief Number of the first point of a column among them, next to the tets; the others follow.
   /// @pre has_columns(vertex.host)
-  [[nodiscard]] GlobalIndex point(const mesh::HostPoint& vertex, LocalIndex layer) const
+  [[nodiscard]] GlobalIndex first_point(const mesh::HostPoint& vertex) const
   {
-    return (first_column_[at(vertex.host)] + vertex.index) * num_layers() + layer;
+    return first_point_[at(vertex.host)] + GlobalIndex{vertex.index} * num_layers(vertex.host);
   }
 
   [[nodiscard]] const LayerCounts& counts(LocalIndex subdomain) const
@@ -84,6 +86,9 @@ class LayerTables {
   void count_cells(const mesh::LatticeLevels& levels);
   [[nodiscard]] GlobalIndex num_tets_on(LocalIndex triangle,
                                         const mesh::LatticeLevels& levels) const;
+  [[nodiscard]] GlobalIndex num_tets_of_layer(LocalIndex triangle,
+                                              const std::array<bool, 3>& on_corner,
+                                              const mesh::LatticeLevels& levels) const;
   [[nodiscard]] GlobalIndex num_side_triangles_on(LocalIndex edge, LocalIndex intervals) const;
   [[nodiscard]] bool is_wall_triangle(LocalIndex triangle) const
   {
@@ -95,10 +100,11 @@ class LayerTables {
   const mesh::CoarseMesh* coarse_;
   const mesh::Skeleton* skeleton_;
   mesh::HostLayout hosts_;
-  std::vector<GlobalIndex> first_column_{0};  ///< Shape (num_on_skeleton + 1).
-  std::vector<char> has_inner_side_{};        ///< Shape (num_edges): side between two materials.
-  std::vector<LocalIndex> column_owner_{};  ///< Shape (num_on_skeleton): lowest with a wall there.
-  std::vector<LayerCounts> counts_{};       ///< Shape (num_subdomains).
+  std::vector<LocalIndex> num_layers_{};     ///< Shape (num_on_skeleton).
+  std::vector<GlobalIndex> first_point_{0};  ///< Shape (num_on_skeleton + 1).
+  std::vector<char> has_inner_side_{};       ///< Shape (num_edges): side between two materials.
+  std::vector<LocalIndex> column_owner_{};   ///< Shape (num_on_skeleton): lowest with a wall there.
+  std::vector<LayerCounts> counts_{};        ///< Shape (num_subdomains).
 };
 
 /// @brief The tables of a mesh with layers; none without. Local.
@@ -109,8 +115,9 @@ class LayerTables {
 /// @brief A piece with its layers.
 struct LayeredPiece {
   mesh::Piece piece{};  ///< Points and tets of layers come last; its boundary is the geometry.
-  std::vector<mesh::HostPoint> columns{};  ///< Ascending; their points are the last vertices,
-                                           ///< num_layers each, from the tets outwards.
+  std::vector<mesh::HostPoint> columns{};  ///< Ascending; their points are the last vertices, each
+                                           ///< time from the tets outwards.
+  std::vector<LocalIndex> first_point{};   ///< Shape (num_columns + 1): vertex.
   LocalIndex num_vertices = 0;             ///< Without these.
   std::vector<LocalIndex> tet_layer{};     ///< Shape (num_tets): from 1 at the wall; 0: in none.
   double outside_area = 0.0;  ///< What layers add to that of the outside: walls are in front of

@@ -39,7 +39,7 @@ Json layers_json(const RunResult& run)
     volume += piece.layers.volume;
   }
   const layers::PatchCover sum = run.cover.sum();
-  return {{"count", run.coarse.mesh.layers.num_layers()},
+  return {{"count", run.coarse.mesh.layers.most_layers},
           {"num_tets", num_tets},
           {"num_cells", num_cells},
           {"volume", volume},

@@ -84,8 +84,9 @@ void add_layer_points(const LayeredPiece& layered, const WriteContext& mesh,
   auto& owner = arrays.point_ints["owner"];
   for (const mesh::HostPoint& vertex : layered.columns) {
     const LocalIndex of_column = mesh.layers->owner(vertex.host);
-    for (LocalIndex layer = 0; layer < mesh.layers->num_layers(); ++layer) {
-      arrays.point_ids.push_back(mesh.ids.num_vertices() + mesh.layers->point(vertex, layer));
+    for (LocalIndex layer = 0; layer < mesh.layers->num_layers(vertex.host); ++layer) {
+      arrays.point_ids.push_back(mesh.ids.num_vertices() + mesh.layers->first_point(vertex)
+                                 + layer);
       owner.push_back(of_column);
     }
   }

@@ -18,15 +18,15 @@ namespace {
 // The layers over the triangles of a skin on walls, as they are written.
 class Stacks {
  public:
-  Stacks(const mesh::Skin& skin, const mesh::Columns& columns, LocalIndex num_layers)
-      : skin_(skin), columns_(columns), num_layers_(num_layers)
+  Stacks(const mesh::Skin& skin, const mesh::Columns& columns, LocalIndex most_layers)
+      : skin_(skin), columns_(columns), most_layers_(most_layers)
   {
   }
 
   [[nodiscard]] bool is_bad(LocalIndex triangle) const
   {
     std::array<Vec3, 3> low = level(triangle, 0);
-    for (LocalIndex layer = 1; layer <= num_layers_; ++layer) {
+    for (LocalIndex layer = 1; layer <= most_layers_; ++layer) {
       const std::array<Vec3, 3> high = level(triangle, layer);
       if (!mesh::is_positive_prism(low, high)) return true;
       low = high;
@@ -45,16 +45,16 @@ class Stacks {
       const auto found = std::ranges::lower_bound(columns_.vertices, name);
       const bool has_column = found != columns_.vertices.end() && *found == name;
       const auto row = static_cast<LocalIndex>(found - columns_.vertices.begin());
-      corners[c] = num_layers > 0 && has_column
-                       ? point_at(std::span(columns_.point_xyz), row * num_layers_ + num_layers - 1)
-                       : point_at(std::span(skin_.vertex_xyz), v);
+      corners[c] = num_layers > 0 && has_column ? point_at(std::span(columns_.point_xyz),
+                                                           row * most_layers_ + num_layers - 1)
+                                                : point_at(std::span(skin_.vertex_xyz), v);
     }
     return corners;
   }
 
   const mesh::Skin& skin_;
   const mesh::Columns& columns_;
-  LocalIndex num_layers_;
+  LocalIndex most_layers_;
 };
 
 // The points of the geometry that decide where a coarse triangle and its sides are.
@@ -97,7 +97,7 @@ std::vector<mesh::PointLimit> find_column_folds(const mesh::Complex& complex,
   const mesh::WallLayers& layers = refine.coarse.layers;
   const mesh::Skin skin = refine::extract_skin(complex, lattice, refine.skeleton, subdomain);
   const mesh::Columns columns = make_columns(complex, lattice, skin, refine, subdomain);
-  const Stacks stacks(skin, columns, layers.num_layers());
+  const Stacks stacks(skin, columns, layers.most_layers);
   std::set<LocalIndex> bad;
   for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
     const LocalIndex parent = skin.triangle_parent[at(t)];

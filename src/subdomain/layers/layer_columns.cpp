@@ -12,6 +12,8 @@
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/layer_tables.hpp"
 
+#include "subdomain/layers/column_ends.hpp"
+
 namespace tessera::subdomain {
 namespace {
 
@@ -44,7 +46,13 @@ class ColumnMaker {
   {
     if (origins_.num_edges() > 0) origin_points_ = refine::refine_lattice(origins_, refine);
     for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
-      intervals_.emplace(complex.edge_skeleton[at(e)], lattice.edge_intervals(e));
+      if (complex.edge_skeleton[at(e)] == kNoIndex) continue;
+      intervals_.emplace(hosts_.edge(complex.edge_skeleton[at(e)]), lattice.edge_intervals(e));
+    }
+    for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
+      if (complex.triangle_skeleton[at(t)] == kNoIndex) continue;
+      intervals_.emplace(hosts_.triangle(complex.triangle_skeleton[at(t)]),
+                         lattice.triangle_intervals(t));
     }
   }
 
@@ -53,15 +61,30 @@ class ColumnMaker {
     std::vector<LocalIndex> order(at(skin_.num_vertices()));
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, {}, [&](LocalIndex v) { return name(v); });
-    for (const LocalIndex v : order) {
-      if (!has_columns(refine_.coarse, refine_.skeleton, hosts_, name(v).host)) continue;
-      columns_.vertices.push_back(name(v));
-      add_points(v);
+    for (auto first = order.begin(); first != order.end();) {
+      const mesh::HostEntity host = name(*first).host;
+      const auto last =
+          std::find_if(first, order.end(), [&](LocalIndex v) { return name(v).host != host; });
+      if (num_layers_on(refine_.coarse, refine_.skeleton, hosts_, host) > 0) {
+        add_host(host, {first, last});
+      }
+      first = last;
     }
     return std::move(columns_);
   }
 
  private:
+  void add_host(mesh::HostEntity host, std::span<const LocalIndex> vertices)
+  {
+    const mesh::HostKind kind = hosts_.kind_of(host);
+    const LocalIndex n = kind == mesh::HostKind::vertex ? 1 : intervals_.at(host);
+    ColumnEnds ends(refine_.coarse, refine_.skeleton, kind, origin_of(host).row, n);
+    for (const LocalIndex v : vertices) {
+      columns_.vertices.push_back(name(v));
+      add_points(v, ends.at_point(name(v).index));
+    }
+  }
+
   // Its ends, and the row of the vertex or edge that it stands on; where its image is.
   struct Column {
     Vec3 wall{};
@@ -70,20 +93,46 @@ class ColumnMaker {
     LocalIndex image = 0;
   };
 
+  // What a host is an image of, and by which transform; itself by none.
+  struct Origin {
+    LocalIndex row = kNoIndex;
+    LocalIndex image = 0;
+  };
+
+  [[nodiscard]] Origin origin_of(mesh::HostEntity host) const
+  {
+    const mesh::Orbits& orbits = refine_.skeleton.orbits;
+    const LocalIndex row = hosts_.row_of(host);
+    const auto in = [&](const auto& rows) -> Origin {
+      return {rows.origin_of(row), rows.image_of(row)};
+    };
+    switch (hosts_.kind_of(host)) {
+      case mesh::HostKind::vertex:
+        return in(orbits.vertices);
+      case mesh::HostKind::edge:
+        return in(orbits.edges);
+      default:
+        return {row};
+    }
+  }
+
   [[nodiscard]] mesh::HostPoint name(LocalIndex v) const
   {
     return {skin_.vertex_host[at(v)], skin_.vertex_index[at(v)]};
   }
 
-  void add_points(LocalIndex v)
+  void add_points(LocalIndex v, std::span<const double> ends)
   {
     const Vec3 wall = point_at(std::span(walls_.vertex_xyz), v);
     const Column column = column_of(v, wall);
-    for (const double end : refine_.coarse.layers.ends) {
+    const auto point_at_end = [&](double end) {
+      if (end == 0.0) return point_at(std::span(skin_.vertex_xyz), v);
+      if (end == 1.0) return wall;
       const Vec3 straight = column.wall + (1.0 - end) * (column.tets - column.wall);
-      const Vec3 point = end == 1.0 ? wall
-                                    : refine_.skeleton.orbits.image(
-                                        column.image, on_side_patch(name(v), column, straight));
+      return refine_.skeleton.orbits.image(column.image, on_side_patch(name(v), column, straight));
+    };
+    for (const double end : ends) {
+      const Vec3 point = point_at_end(end);
       columns_.point_xyz.insert(columns_.point_xyz.end(), point.begin(), point.end());
     }
   }
@@ -91,22 +140,16 @@ class ColumnMaker {
   [[nodiscard]] Column column_of(LocalIndex v, const Vec3& wall) const
   {
     const mesh::HostPoint at_name = name(v);
-    const mesh::HostKind kind = hosts_.kind_of(at_name.host);
-    const LocalIndex row = hosts_.row_of(at_name.host);
-    const mesh::Orbits& orbits = refine_.skeleton.orbits;
-    if (kind == mesh::HostKind::vertex && orbits.vertices.image_of(row) != 0) {
-      const LocalIndex origin = orbits.vertices.base_of(row);
-      const LocalIndex vertex = refine_.skeleton.vertex_coarse[at(origin)];
-      return {refine_.coarse.layers.wall(vertex), refine_.coarse.position(vertex), origin,
-              orbits.vertices.image_of(row)};
+    const auto [row, image] = origin_of(at_name.host);
+    if (image != 0 && hosts_.kind_of(at_name.host) == mesh::HostKind::vertex) {
+      const LocalIndex vertex = refine_.skeleton.vertex_coarse[at(row)];
+      return {refine_.coarse.layers.wall(vertex), refine_.coarse.position(vertex), row, image};
     }
-    if (kind == mesh::HostKind::edge && orbits.edges.image_of(row) != 0) {
-      const LocalIndex origin = orbits.edges.base_of(row);
-      const auto found = std::ranges::lower_bound(origins_.edge_skeleton, origin);
+    if (image != 0) {
+      const auto found = std::ranges::lower_bound(origins_.edge_skeleton, row);
       const auto e = static_cast<LocalIndex>(found - origins_.edge_skeleton.begin());
       const LocalIndex k = at_name.index + 1;
-      return {origin_points_.walls->edge_point(e, k), origin_points_.edge_point(e, k), origin,
-              orbits.edges.image_of(row)};
+      return {origin_points_.walls->edge_point(e, k), origin_points_.edge_point(e, k), row, image};
     }
     return {.wall = wall, .tets = point_at(std::span(skin_.vertex_xyz), v), .row = row};
   }
@@ -119,7 +162,7 @@ class ColumnMaker {
       return refine::side_point_of_vertex(refine_, column.row, point);
     }
     if (kind != mesh::HostKind::edge) return point;
-    const LocalIndex n = intervals_.at(hosts_.row_of(at_name.host));
+    const LocalIndex n = intervals_.at(at_name.host);
     return refine::side_point_of_edge(refine_, column.row, n, at_name.index + 1, point);
   }
 
@@ -129,7 +172,7 @@ class ColumnMaker {
   mesh::HostLayout hosts_;
   mesh::Complex origins_;  // Edges on walls whose images the complex has.
   mesh::RefinedLattice origin_points_{};
-  std::unordered_map<LocalIndex, LocalIndex> intervals_{};  // Of edges of the skeleton.
+  std::unordered_map<mesh::HostEntity, LocalIndex> intervals_{};  // Of edges and triangles.
   mesh::Columns columns_{};
 };
 

@@ -29,26 +29,31 @@ LocalIndex num_tets_of_prism(const std::array<bool, 3>& has_column)
 
 }  // namespace
 
-bool has_columns(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
-                 const mesh::HostLayout& hosts, mesh::HostEntity host)
+LocalIndex num_layers_on(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
+                         const mesh::HostLayout& hosts, mesh::HostEntity host)
 {
-  const auto has_any = [&](const LocalIndex* vertices, std::size_t num_vertices) {
-    return std::any_of(vertices, vertices + num_vertices, [&](LocalIndex v) {
-      const LocalIndex of_mesh = skeleton.vertex_coarse[at(v)];
-      return coarse.layers.wall(of_mesh) != coarse.position(of_mesh);
-    });
+  const mesh::WallLayers& layers = coarse.layers;
+  const auto most_of = [&](const LocalIndex* vertices, std::size_t num_vertices) {
+    LocalIndex most = 0;
+    for (std::size_t i = 0; i < num_vertices; ++i) {
+      const LocalIndex v = skeleton.vertex_coarse[at(vertices[i])];
+      if (layers.wall(v) == coarse.position(v)) continue;
+      most = std::max(most, layers.num_layers(layers.vertex_stack[at(v)]));
+    }
+    return most;
   };
   const LocalIndex row = hosts.row_of(host);
   switch (hosts.kind_of(host)) {
     case HostKind::vertex:
-      return has_any(&row, 1);
+      return most_of(&row, 1);
     case HostKind::edge:
-      return skeleton.is_on_wall(row) && has_any(&skeleton.edge_vertices[2 * at(row)], 2);
+      return skeleton.is_on_wall(row) ? most_of(&skeleton.edge_vertices[2 * at(row)], 2) : 0;
     case HostKind::triangle:
-      return coarse.layers.is_wall(skeleton.triangle_patch[at(row)])
-             && has_any(&skeleton.triangle_vertices[3 * at(row)], 3);
+      return layers.is_wall(skeleton.triangle_patch[at(row)])
+                 ? most_of(&skeleton.triangle_vertices[3 * at(row)], 3)
+                 : 0;
     default:
-      return false;
+      return 0;
   }
 }
 
@@ -64,10 +69,9 @@ LayerTables::LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& s
 void LayerTables::count_columns(const mesh::LatticeLevels& levels)
 {
   const auto add = [&](mesh::HostEntity host, LocalIndex intervals) {
-    const GlobalIndex num_points = subdomain::has_columns(*coarse_, *skeleton_, hosts_, host)
-                                       ? mesh::num_points_of_host(hosts_.kind_of(host), intervals)
-                                       : 0;
-    first_column_.push_back(first_column_.back() + num_points);
+    num_layers_.push_back(num_layers_on(*coarse_, *skeleton_, hosts_, host));
+    const GlobalIndex num_columns = mesh::num_points_of_host(hosts_.kind_of(host), intervals);
+    first_point_.push_back(first_point_.back() + num_columns * num_layers_.back());
   };
   for (LocalIndex v = 0; v < skeleton_->num_vertices(); ++v) add(hosts_.vertex(v), 1);
   for (LocalIndex e = 0; e < skeleton_->num_edges(); ++e) {
@@ -126,18 +130,35 @@ void LayerTables::count_cells(const mesh::LatticeLevels& levels)
 
 GlobalIndex LayerTables::num_tets_on(LocalIndex triangle, const mesh::LatticeLevels& levels) const
 {
+  const LocalIndex* v = &skeleton_->triangle_vertices[3 * at(triangle)];
+  std::array<LocalIndex, 3> num_on_corner{};
+  for (std::size_t c = 0; c < 3; ++c) num_on_corner[c] = num_layers(hosts_.vertex(v[c]));
+  std::array<LocalIndex, 3> ends = num_on_corner;
+  std::ranges::sort(ends);
+  GlobalIndex num_tets = 0;
+  LocalIndex from = 0;  // Layers from the wall, as far as the same corners have them.
+  for (const LocalIndex to : ends) {
+    if (to == from) continue;
+    std::array<bool, 3> on_corner{};
+    for (std::size_t c = 0; c < 3; ++c) on_corner[c] = num_on_corner[c] >= to;
+    num_tets += (to - from) * num_tets_of_layer(triangle, on_corner, levels);
+    from = to;
+  }
+  return num_tets;
+}
+
+// @param[in] on_corner Whether a corner has the layer; one has.
+GlobalIndex LayerTables::num_tets_of_layer(LocalIndex triangle,
+                                           const std::array<bool, 3>& on_corner,
+                                           const mesh::LatticeLevels& levels) const
+{
+  if (std::ranges::count(on_corner, true) == 3) {
+    return 3 * mesh::num_small_triangles(*skeleton_, levels, triangle);
+  }
   const mesh::TriangleGrading grading =
       mesh::triangle_grading(*skeleton_, *coarse_, levels, triangle);
   const LocalIndex n = grading.finest_intervals();
-  const LocalIndex* v = &skeleton_->triangle_vertices[3 * at(triangle)];
-  std::array<bool, 3> on_corner{};
-  for (std::size_t c = 0; c < 3; ++c) on_corner[c] = has_columns(hosts_.vertex(v[c]));
-  const auto num_with = std::ranges::count(on_corner, true);
-  if (num_with == 0) return 0;
-  if (num_with == 3) {
-    return 3 * num_layers() * mesh::num_small_triangles(*skeleton_, levels, triangle);
-  }
-  // A point has a column unless it lies on no corner that has one.
+  // A point has it unless it lies on no corner that does.
   const auto has_column = [&](const TrianglePoint& p) {
     return (on_corner[0] && p.i + p.j < n) || (on_corner[1] && p.i > 0)
            || (on_corner[2] && p.j > 0);
@@ -147,16 +168,15 @@ GlobalIndex LayerTables::num_tets_on(LocalIndex triangle, const mesh::LatticeLev
       grading, [&](const TrianglePoint& a, const TrianglePoint& b, const TrianglePoint& c) {
         num_tets += num_tets_of_prism({has_column(a), has_column(b), has_column(c)});
       });
-  return num_tets * num_layers();
+  return num_tets;
 }
 
 GlobalIndex LayerTables::num_side_triangles_on(LocalIndex edge, LocalIndex intervals) const
 {
   const LocalIndex* v = &skeleton_->edge_vertices[2 * at(edge)];
-  const int num_with = static_cast<int>(has_columns(hosts_.vertex(v[0])))
-                       + static_cast<int>(has_columns(hosts_.vertex(v[1])));
-  if (num_with == 0) return 0;
-  return num_layers() * (2 * GlobalIndex{intervals} - (2 - num_with));
+  const auto [less, more] =
+      std::minmax({num_layers(hosts_.vertex(v[0])), num_layers(hosts_.vertex(v[1]))});
+  return more * (2 * GlobalIndex{intervals} - 1) + less;
 }
 
 bool LayerTables::is_end(LocalIndex edge, mesh::HostEntity vertex) const

@@ -61,17 +61,20 @@ class LayerBuilder {
   void place_points()
   {
     const mesh::Columns& all = piece().columns;
-    const std::size_t size = 3 * at(tables_.num_layers());
+    const std::size_t size = 3 * at(tables_.most_layers());
     for (const mesh::HostPoint& name : made_.columns) {
       const auto found = std::ranges::lower_bound(all.vertices, name);
       if (found == all.vertices.end() || *found != name) {
         throw MeshError(fmt::format("piece {} has no column over vertex {} of host {}",
                                     piece().subdomain, name.index, name.host));
       }
-      const double* xyz =
-          &all.point_xyz[size * static_cast<std::size_t>(found - all.vertices.begin())];
-      piece().vertex_xyz.insert(piece().vertex_xyz.end(), xyz, xyz + size);
+      const double* end =
+          &all.point_xyz[size * static_cast<std::size_t>(found - all.vertices.begin())] + size;
+      made_.first_point.push_back(piece().num_vertices());
+      piece().vertex_xyz.insert(piece().vertex_xyz.end(), end - 3 * tables_.num_layers(name.host),
+                                end);
     }
+    made_.first_point.push_back(piece().num_vertices());
   }
 
   [[nodiscard]] Corner corner_of(LocalIndex vertex)
@@ -84,11 +87,13 @@ class LayerBuilder {
     return corner;
   }
 
-  // Where a layer ends at a corner; layer -1 ends at the tets.
+  // Where a layer ends at a corner; what is missing ends at the tets, as layer -1 does.
   [[nodiscard]] LocalIndex point(const Corner& corner, LocalIndex layer) const
   {
-    if (corner.column == kNoIndex || layer < 0) return corner.vertex;
-    return made_.num_vertices + corner.column * tables_.num_layers() + layer;
+    if (corner.column == kNoIndex) return corner.vertex;
+    const LocalIndex from_wall = tables_.most_layers() - layer;
+    const LocalIndex p = made_.first_point[at(corner.column) + 1] - from_wall;
+    return p < made_.first_point[at(corner.column)] ? corner.vertex : p;
   }
 
   void add_prisms(LocalIndex row)
@@ -102,7 +107,7 @@ class LayerBuilder {
     std::array<Corner, 3> sorted = outward;
     std::ranges::sort(sorted, {}, &Corner::name);
     const bool is_even = is_rotation(outward, sorted);
-    for (LocalIndex layer = 0; layer < tables_.num_layers(); ++layer) {
+    for (LocalIndex layer = 0; layer < tables_.most_layers(); ++layer) {
       const LocalIndex first_tet = piece().num_tets();
       layers::Prism prism{};
       for (std::size_t c = 0; c < 3; ++c) {
@@ -110,7 +115,7 @@ class LayerBuilder {
         prism[3 + c] = point(sorted[c], layer);
       }
       layers::append_prism_tets(prism, is_even, piece().tet_vertices);
-      made_.tet_layer.resize(at(piece().num_tets()), tables_.num_layers() - layer);
+      made_.tet_layer.resize(at(piece().num_tets()), tables_.most_layers() - layer);
       for (LocalIndex t = first_tet; t < piece().num_tets(); ++t) {
         made_.tet_of_prism.push_back(t - first_tet);
       }
@@ -159,7 +164,7 @@ class LayerBuilder {
   void end_at_wall(LocalIndex row, const std::array<Corner, 3>& outward)
   {
     std::array<LocalIndex, 3> triangle{};
-    for (std::size_t c = 0; c < 3; ++c) triangle[c] = point(outward[c], tables_.num_layers() - 1);
+    for (std::size_t c = 0; c < 3; ++c) triangle[c] = point(outward[c], tables_.most_layers() - 1);
     const std::array<LocalIndex, 3> of_tets{outward[0].vertex, outward[1].vertex,
                                             outward[2].vertex};
     made_.outside_area += area_of(triangle) - area_of(of_tets);

@@ -17,9 +17,9 @@ constexpr double kThickness = 0.1;
 // The walls of kuhn_cube(2), or of what it became; patches x0, x1, y0, y1, z0, z1.
 WallSurface walls_of(const mesh::CoarseMesh& cube, const std::vector<std::size_t>& patches)
 {
-  std::vector<double> thickness(at(cube.num_patches()), 0.0);
-  for (const std::size_t patch : patches) thickness[patch] = kThickness;
-  return find_walls(cube, thickness);
+  std::vector<PatchLayers> layers(at(cube.num_patches()));
+  for (const std::size_t patch : patches) layers[patch].thickness = kThickness;
+  return find_walls(cube, layers);
 }
 
 TEST(TriangleShape, IsLargestOfEqualSides)

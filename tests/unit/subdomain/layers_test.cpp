@@ -23,16 +23,21 @@ namespace tessera::subdomain {
 namespace {
 
 // A cube with layers on some patches, in four subdomains of two materials.
-class LayeredCube : public ::testing::TestWithParam<std::vector<std::size_t>> {
+struct Wall {
+  std::size_t patch = 0;
+  int count = 3;
+};
+
+class LayeredCube : public ::testing::TestWithParam<std::vector<Wall>> {
  protected:
   LayeredCube() : coarse_(with_layers_on(GetParam())), body_(coarse_, testing::slabs(coarse_, 2)) {}
 
-  static mesh::CoarseMesh with_layers_on(const std::vector<std::size_t>& patches)
+  static mesh::CoarseMesh with_layers_on(const std::vector<Wall>& walls)
   {
     mesh::CoarseMesh cube = testing::two_material_cube(4);
     std::vector<layers::LayerOptions> options;
-    for (const std::size_t patch : patches) {
-      options.push_back({.patch = cube.patch_names[patch], .first = 0.02, .count = 3});
+    for (const auto& [patch, count] : walls) {
+      options.push_back({.patch = cube.patch_names[patch], .first = 0.02, .count = count});
     }
     (void)layers::grow_layers(cube, options, testing::FlatModel(), true);
     return cube;
@@ -131,11 +136,12 @@ TEST_P(LayeredCube, IsOneMesh)
   for (const auto& [triangle, count] : boundary) EXPECT_EQ(count, 1);
 }
 
-// One side; two opposite ones, of which one ends at the face between the materials; all but one.
+// One side; two opposite ones, of which one ends at the face between the materials; all but one;
+// three that meet, of which each has another number of layers.
 INSTANTIATE_TEST_SUITE_P(Patches, LayeredCube,
-                         ::testing::Values(std::vector<std::size_t>{0},
-                                           std::vector<std::size_t>{2, 3},
-                                           std::vector<std::size_t>{0, 1, 2, 3, 4}));
+                         ::testing::Values(std::vector<Wall>{{0}}, std::vector<Wall>{{2}, {3}},
+                                           std::vector<Wall>{{0}, {1}, {2}, {3}, {4}},
+                                           std::vector<Wall>{{0, 1}, {2, 4}, {4, 2}}));
 
 }  // namespace
 }  // namespace tessera::subdomain
