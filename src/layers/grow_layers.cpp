@@ -39,11 +39,23 @@ std::vector<std::string> obstacles_of_patches(const mesh::CoarseMesh& mesh)
     if (faces[f].tets[1] == kNoIndex) continue;
     obstacles[at(mesh.face_patch[f])] = "inside of the model; layers are for its outside";
   }
-  for (std::size_t p = 0; p < mesh.images.patch_origin.size(); ++p) {
-    const LocalIndex origin = mesh.images.patch_origin[p];
-    if (origin != kNoIndex) obstacles[p] = obstacles[at(origin)] = kPeriodicObstacle;
+  for (LocalIndex p = 0; p < static_cast<LocalIndex>(mesh.images.patch_origin.size()); ++p) {
+    const LocalIndex origin = mesh.images.patch_origin[at(p)];
+    if (origin == kNoIndex || mesh.images.is_of_split(p)) continue;
+    obstacles[at(p)] = obstacles[at(origin)] = kPeriodicObstacle;
   }
   return obstacles;
+}
+
+// A split patch by its own name, or one of its sides by that of the side.
+std::vector<bool> patches_that_fit(const std::string& pattern, const mesh::CoarseMesh& mesh)
+{
+  const std::vector<std::string> names = mesh::names_of_sides(mesh);
+  std::vector<bool> fits(names.size());
+  for (std::size_t p = 0; p < fits.size(); ++p) {
+    fits[p] = matches_pattern(pattern, mesh.patch_names[p]) || matches_pattern(pattern, names[p]);
+  }
+  return std::ranges::count(fits, true) > 0 ? fits : matching_names("patch", pattern, names);
 }
 
 // The patches that an entry fits. Of a pattern those that can be no wall are left out; one that is
@@ -51,7 +63,7 @@ std::vector<std::string> obstacles_of_patches(const mesh::CoarseMesh& mesh)
 std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& mesh,
                            const std::vector<std::string>& obstacles)
 {
-  std::vector<bool> fits = matching_names("patch", entry.patch, mesh.patch_names);
+  std::vector<bool> fits = patches_that_fit(entry.patch, mesh);
   for (std::size_t p = 0; p < fits.size(); ++p) {
     if (!fits[p] || obstacles[p].empty()) continue;
     fits[p] = false;

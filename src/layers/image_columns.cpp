@@ -60,12 +60,15 @@ void join_image_columns(const mesh::CoarseMesh& mesh, const std::set<WallEdge>& 
   walls.images = orbits.images;
   for (LocalIndex base = 0; base < mesh.num_vertices(); ++base) {
     const auto members = members_of[base];
-    if (members.size() < 2) continue;
+    const auto at_one_place = std::ranges::count_if(
+        members, [&](LocalIndex v) { return orbits.vertices.image_of(v) == 0; });
+    // The sides of a split are walls of their own.
+    if (std::cmp_equal(at_one_place, members.size())) continue;
     const auto row_of = [&](LocalIndex v) { return walls.wall_of_vertex[at(v)]; };
-    const bool is_alike = std::ranges::all_of(members, [&](LocalIndex v) {
-      return row_of(v) != kNoIndex && !is_end[at(v)]
-             && walls.vertices[at(row_of(v))].column != Vec3{};
-    });
+    const bool is_alike = at_one_place == 1 && std::ranges::all_of(members, [&](LocalIndex v) {
+                            return row_of(v) != kNoIndex && !is_end[at(v)]
+                                   && walls.vertices[at(row_of(v))].column != Vec3{};
+                          });
     Vec3 column{};
     LocalIndex stack = 0;
     if (is_alike) {

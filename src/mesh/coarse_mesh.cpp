@@ -185,6 +185,17 @@ std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh
   return names;
 }
 
+std::vector<std::string> names_of_sides(const CoarseMesh& mesh)
+{
+  std::vector<std::string> names = mesh.patch_names;
+  for (LocalIndex minus = 0; minus < mesh.num_patches(); ++minus) {
+    if (!mesh.images.is_of_split(minus)) continue;
+    names[at(minus)] += "_minus";
+    names[at(mesh.images.patch_origin[at(minus)])] += "_plus";
+  }
+  return names;
+}
+
 std::vector<PeriodicPair> periodic_pairs(const CoarseMesh& mesh)
 {
   std::vector<PeriodicPair> pairs;

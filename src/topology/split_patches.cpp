@@ -28,7 +28,7 @@ class Opener {
     }
   }
 
-  void run(mesh::EdgeLevels& levels)
+  void run()
   {
     make_patches();
     // All of it is found on the closed mesh, whose tets know their sides.
@@ -37,9 +37,6 @@ class Opener {
     open_faces();
     mesh_.tet_vertices = std::move(tets);
     mesh_.vertex_xyz = copied(mesh_.vertex_xyz);
-    mesh_.layers.wall_xyz = copied(mesh_.layers.wall_xyz);
-    open_stacks();
-    open_edges(levels);
   }
 
  private:
@@ -57,14 +54,6 @@ class Opener {
       all.insert(all.end(), &xyz[3 * at(v)], &xyz[3 * at(v)] + 3);
     }
     return all;
-  }
-
-  void open_stacks()
-  {
-    if (mesh_.layers.are_none()) return;
-    FlatArray<LocalIndex> stacks;
-    for (const LocalIndex v : origin_) stacks.push_back(mesh_.layers.vertex_stack[at(v)]);
-    mesh_.layers.vertex_stack = std::move(stacks);
   }
 
   // What is opened of a patch is patches of its own, unless it is all of it: then that is one side.
@@ -86,11 +75,9 @@ class Opener {
     plus_.assign(at(num_before), kNoIndex);
     for (LocalIndex p = 0; p < num_before; ++p) {
       if (!has_open[at(p)]) continue;
-      const std::string name = mesh_.patch_names[at(p)];
-      plus_[at(p)] = has_closed[at(p)] ? add_patch(p, name + "_plus") : p;
-      mesh_.patch_names[at(plus_[at(p)])] = name + "_plus";
+      plus_[at(p)] = has_closed[at(p)] ? add_patch(p) : p;
       if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside[at(plus_[at(p)])] = 0;
-      const LocalIndex minus = add_patch(p, name + "_minus");
+      const LocalIndex minus = add_patch(p);
       images.patch_origin[at(minus)] = plus_[at(p)];
       minus_of_[plus_[at(p)]] = minus;
     }
@@ -98,26 +85,26 @@ class Opener {
   }
 
   // On the same surface.
-  LocalIndex add_patch(LocalIndex like, const std::string& name)
+  LocalIndex add_patch(LocalIndex like)
   {
-    mesh_.patch_names.push_back(name);
+    mesh_.patch_names.push_back(std::string(mesh_.patch_names[at(like)]));
     mesh_.patch_surface.push_back(LocalIndex{mesh_.patch_surface[at(like)]});
     mesh_.images.patch_origin.push_back(kNoIndex);
     mesh_.images.patch_transform.push_back(0);
     if (!mesh_.patch_row.empty()) mesh_.patch_row.push_back(LocalIndex{mesh_.patch_row[at(like)]});
-    if (!mesh_.layers.are_none()) mesh_.layers.patch_is_wall.push_back(0);
     if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside.push_back(0);
     return mesh_.num_patches() - 1;
   }
 
-  // Patches that were of one row still are if they have one name.
+  // Patches that were of one row still are if they will have one name.
   void name_rows_anew()
   {
     if (mesh_.patch_row.empty()) return;
+    const std::vector<std::string> names = mesh::names_of_sides(mesh_);
     std::map<std::pair<LocalIndex, std::string>, LocalIndex> rows;
     for (LocalIndex p = 0; p < mesh_.num_patches(); ++p) {
       const auto next = static_cast<LocalIndex>(rows.size());
-      const auto key = std::pair(LocalIndex{mesh_.patch_row[at(p)]}, mesh_.patch_names[at(p)]);
+      const auto key = std::pair(LocalIndex{mesh_.patch_row[at(p)]}, names[at(p)]);
       mesh_.patch_row[at(p)] = rows.try_emplace(key, next).first->second;
     }
   }
@@ -189,19 +176,6 @@ class Opener {
     mesh_.face_uv.insert(mesh_.face_uv.end(), uv.begin(), uv.end());
   }
 
-  void open_edges(mesh::EdgeLevels& levels) const
-  {
-    if (levels.is_uniform()) return;
-    std::vector<LocalIndex> edges = mesh::coarse_edges(mesh_);
-    FlatArray<std::int8_t> of_edges;
-    for (std::size_t e = 0; e < edges.size(); e += 2) {
-      const LocalIndex a = origin_[at(edges[e])];
-      const LocalIndex b = origin_[at(edges[e + 1])];
-      of_edges.push_back(static_cast<std::int8_t>(levels.of(a, b)));
-    }
-    levels = mesh::EdgeLevels(std::move(edges), std::move(of_edges));
-  }
-
   mesh::CoarseMesh& mesh_;
   SplitFaces split_;
   std::vector<LocalIndex> plus_{};  // Of each patch before: one side of what is opened of it.
@@ -212,9 +186,9 @@ class Opener {
 
 }  // namespace
 
-void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options, mesh::EdgeLevels& levels)
+void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options)
 {
-  Opener(mesh, options).run(levels);
+  Opener(mesh, options).run();
   mesh::validate(mesh);
 }
 

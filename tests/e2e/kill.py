@@ -12,10 +12,13 @@ from program import OK
 
 STAGES = ("model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write")
 
+# Of a mesh with layers on its walls.
+LAYER_STAGES = (*STAGES[:2], "layers", *STAGES[2:])
+
 # One of each kind of process that a run has; "all": mpirun and everything below it.
 VICTIMS = ("rank", "zygote", "model zygote", "job", "all")
 
-_STAGE_LINE = re.compile(rf" info ({'|'.join(STAGES)}) +(?!\d+ of )", re.MULTILINE)
+_STAGE_LINE = re.compile(rf" info ({'|'.join(LAYER_STAGES)}) +(?!\d+ of )", re.MULTILINE)
 
 
 class Watch:

@@ -271,6 +271,44 @@ class SeveralEntries(LayersTest):
         self.assertAlmostEqual(mesh.cell_volumes().sum(), 1.0, places=9)
 
 
+class Baffle(LayersTest):
+    """A plate that reaches into a channel from its floor, and ends in the middle: layers on both of its sides."""
+
+    CHANNEL = (
+        "algebraic3d\nsolid channel = orthobrick (0, 0, 0; 2, 1, 1);\ntlo channel;\n"
+    )
+
+    def channel(self, layered):
+        self.write("model.geo", self.CHANNEL)
+        return self.write(
+            "case.toml",
+            f"geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = 5\nrefine.levels = 1\n{program.NO_PAGE}"
+            "[[embed]]\nname = 'plate'\npolygon = [[1, 0, 0], [1, 1, 0], [1, 1, 0.5], [1, 0, 0.5]]\n"
+            "[[split]]\npatch = 'plate'\n"
+            f"[[layer]]\npatch = '{layered}'\nfirst = 0.01\ncount = 3\n")
+
+    def test_has_layers_on_both_sides_or_on_one(self):
+        for layered, sides in (("plate", {"plate_minus", "plate_plus"}), ("plate_minus", {"plate_minus"})):
+            with self.subTest(layered=layered):
+                case = self.channel(layered)
+                out = self.mesh(case, f"{layered}_1")
+                report = self.checked(out)
+                self.assertEqual({patch["name"] for patch in report["layers"]["patches"]}, sides)
+                self.assertGreater(report["layers"]["full_height"], 0.5)
+                self.assertEqual(report["splits"], [{"plus": "plate_plus", "minus": "plate_minus"}])
+                self.assertAlmostEqual(report["volume"], 2.0, places=9)
+                other = self.mesh(case, f"{layered}_3", ranks=3)
+                self.assertEqual(program.mesh_files(other), program.mesh_files(out))
+                grid = grid_of(out / "mesh.pvtu")
+                layer = vtk_to_numpy(grid.GetCellData().GetArray("layer"))
+                signs = set()
+                for cell in numpy.flatnonzero(layer):
+                    points = numpy.array(points_of(grid, cell))
+                    signs.add(math.copysign(1.0, points[:, 0].mean() - 1.0))
+                    self.assertLess(abs(points[:, 0] - 1.0).max(), 0.01 * (1 + 1.2 + 1.44) * 1.01)
+                self.assertEqual(len(signs), len(sides))
+
+
 class Refused(LayersTest):
     def test_is_what_names_no_patch_or_several(self):
         outcome = self.run_program("mesh", self.case(patch="inlet"), "--output", "out", ranks=2)

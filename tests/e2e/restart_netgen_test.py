@@ -116,6 +116,20 @@ tlo wedge;
 """
 
 
+class Layers(kill.RestartTest):
+    """Columns come with the coarse mesh and with the pieces, whoever has made these."""
+
+    @staticmethod
+    def make_arguments(maker):
+        return [program.CONFIGS / "cases" / "pipe_layers.toml", *program.sets("size.target=0.12", "output.report_html=false")]
+
+    def test_all_killed_in_every_stage(self):
+        for number, stage in enumerate(kill.LAYER_STAGES):
+            with self.subTest(stage=stage):
+                self.kill_run(lambda watch, stage=stage: watch.wait_for_stage(stage, kill.LAYER_STAGES), ranks=2)
+                self.resume(ranks=1 + number % 3)
+
+
 class PoorPiece(kill.RestartTest):
     """NETGEN gets a second try at a piece with a small angle: the first one is not the last word."""
 

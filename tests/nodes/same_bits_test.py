@@ -57,6 +57,9 @@ class SameBits(NodesTest):
         model = package / "usr/share/opencascade/data/step/linkrods.step"
         self.assert_same_on_all(model, "--size", "0.25", *NO_PAGE)
 
+    def test_layers_on_walls(self):
+        self.assert_same_on_all(program.CONFIGS / "cases" / "pipe_layers.toml", *NO_PAGE)
+
     def test_a_run_goes_on_on_other_nodes(self):
         arguments = ["mesh", SHAFT, *COARSER, "--progress", "never", "--output"]
         whole = self.mesh_on(NODES[1], SHAFT, "whole", *COARSER)

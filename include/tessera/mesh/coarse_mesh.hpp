@@ -116,6 +116,10 @@ struct CoarseMesh {
 /// @brief Names of the two sides of each split, plus and minus. Local.
 [[nodiscard]] std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh);
 
+/// @brief The names of patches, with `_plus` and `_minus` behind those of the sides of a split,
+/// which have one name as long as the coarse mesh is made. Shape (num_patches). Local.
+[[nodiscard]] std::vector<std::string> names_of_sides(const CoarseMesh& mesh);
+
 /// @brief Names of the patches inside of bodies, each once. Local.
 [[nodiscard]] std::vector<std::string> inside_patch_names(const CoarseMesh& mesh);
 

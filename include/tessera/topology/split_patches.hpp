@@ -4,7 +4,6 @@
 #include <span>
 
 #include "tessera/mesh/coarse_mesh.hpp"
-#include "tessera/mesh/edge_levels.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/topology/options.hpp"
 
@@ -24,13 +23,13 @@ namespace tessera::topology {
 /// @post !are_rims_near(). @throws as are_rims_near(); GeometryError if a projection fails.
 void divide_at_rims(mesh::CoarseMesh& mesh, const SplitOptions& options, const model::Model& model);
 
-/// @brief Opens a mesh. What is opened of a patch X becomes two: `X_plus` on the material with the
-/// lower number, and `X_minus` on the other one, which is its image: CoarseMesh::images. Copies
-/// of vertices stand right behind each other, so on both sides all orders of vertices are the same:
-/// what is made of these sides has the same bits. Local; O(n log n).
-/// @param[in,out] levels Of the mesh's edges; those of copies are as before.
-/// @pre !are_rims_near(). @post mesh::validate() accepts the mesh.
+/// @brief Opens a mesh. What is opened of a patch becomes two: the plus side on the material with
+/// the lower number, and the minus side on the other one, which is its image: CoarseMesh::images.
+/// Both keep its name: mesh::names_of_sides(). Copies of vertices stand right behind each other, so
+/// on both sides all orders of vertices are the same: what is made of these sides has the same
+/// bits. Local; O(n log n).
+/// @pre !are_rims_near(); no layers. @post mesh::validate() accepts the mesh.
 /// @throws as are_rims_near().
-void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options, mesh::EdgeLevels& levels);
+void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options);
 
 }  // namespace tessera::topology

@@ -124,12 +124,6 @@ void take(LayeredMesh layered, RunResult& run)
   run.cover = std::move(layered.cover);
 }
 
-void take(LevelledMesh open, RunResult& run)
-{
-  run.coarse.mesh = std::move(open.mesh);
-  run.levels = open.levels;  // A copy does not hold the memory of the mesh.
-}
-
 // A coarse mesh, and once more where it is too coarse for the sizes.
 // @return Whether it is fine enough for them.
 bool make_coarse_mesh(const StageList& stages, RunResult& run, RunContext& context)
@@ -162,14 +156,13 @@ void run_coarse_stages(const StageList& stages, RunResult& run, RunContext& cont
   mesh::CoarseMesh& mesh = run.coarse.mesh;
   const bool is_fine_enough = make_coarse_mesh(stages, run, context);
   if (contains(stages, Stage::periodic)) mesh = run_periodic_stage(resolved, mesh, context);
-  if (contains(stages, Stage::split)) mesh = run_rim_stage(resolved, std::move(mesh), context);
+  if (contains(stages, Stage::split)) {
+    mesh = run_split_stage(resolved, run_rim_stage(resolved, std::move(mesh), context), context);
+  }
   if (contains(stages, Stage::layers)) take(run_layer_stage(resolved, mesh, context), run);
   choose_levels(stages, run, context);
   if (!is_fine_enough) run.coarse.missed_size = longest_edge_in_sizes(run, context);
-  // The last one: sizes and layers know patches by their names.
-  if (contains(stages, Stage::split)) {
-    take(run_split_stage(resolved, {std::move(mesh), run.levels}, context), run);
-  }
+  mesh.patch_names = mesh::names_of_sides(mesh);  // Sizes and layers know patches by the others.
   run.decomposition = run_decompose_stage(run, context);
 }
 
@@ -206,9 +199,9 @@ StageList coarse_stages(const config::Case& resolved, model::Format format)
   stages.push_back(Stage::coarse);
   append_if(may_want_a_finer_mesh(resolved), Stage::levels, stages);  // A look at the sizes.
   append_if(!resolved.periodic.empty(), Stage::periodic, stages);
+  append_if(!resolved.splits.are_none(), Stage::split, stages);
   append_if(!resolved.layers.empty(), Stage::layers, stages);
   append_if(sizing::are_wanted(resolved.size), Stage::levels, stages);
-  append_if(!resolved.splits.are_none(), Stage::split, stages);
   stages.push_back(Stage::decompose);
   return stages;
 }

@@ -34,18 +34,18 @@ mesh::CoarseMesh run_rim_stage(const config::Case& run_case, mesh::CoarseMesh co
   });
 }
 
-LevelledMesh run_split_stage(const config::Case& run_case, const LevelledMesh& closed,
-                             RunContext& context)
+mesh::CoarseMesh run_split_stage(const config::Case& run_case, const mesh::CoarseMesh& closed,
+                                 RunContext& context)
 {
   StageScope stage(context, Stage::split);
-  LevelledMesh open = comm::on_root_of_nodes(context.comm, [&] {
+  mesh::CoarseMesh open = comm::on_root_of_nodes(context.comm, [&] {
     return with_file_context(run_case, [&] {
-      LevelledMesh made = closed;
-      topology::split_patches(made.mesh, run_case.splits, made.levels);
+      mesh::CoarseMesh made = closed;
+      topology::split_patches(made, run_case.splits);
       return made;
     });
   });
-  const LocalIndex num_double = open.mesh.num_vertices() - closed.mesh.num_vertices();
+  const LocalIndex num_double = open.num_vertices() - closed.num_vertices();
   stage.work_is_done();
   stage.finish(fmt::format("{} coarse points are double", num_double));
   return open;

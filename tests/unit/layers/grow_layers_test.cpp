@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/layers/grow_layers.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/topology/split_patches.hpp"
 
 #include "support/flat_model.hpp"
 #include "support/meshes.hpp"
@@ -128,6 +131,27 @@ TEST(GrowLayers, OfAPatternAreOnTheOutsideOnly)
   const LayerCover cover = grow_layers(cube, std::vector{two_layers("*")}, kModel, false);
   EXPECT_EQ(cover.patches.size(), 6U);
   EXPECT_FALSE(cube.layers.is_wall(6));
+}
+
+// The face between two materials in the middle of a cube, open.
+TEST(GrowLayers, StandOnTheSidesOfASplit)
+{
+  mesh::CoarseMesh closed = testing::two_material_cube(4);
+  const std::string between = closed.patch_names[6];
+  topology::split_patches(closed, {.patches = {{between}}});
+  for (const auto& [name, num_walls] : {std::pair(between, 2), std::pair(between + "_minus", 1)}) {
+    mesh::CoarseMesh cube = closed;
+    const LayerCover cover = grow_layers(cube, std::vector{two_layers(name)}, kModel, true);
+    EXPECT_EQ(cover.patches.size(), at(num_walls));
+    EXPECT_NEAR(cover.sum().full, num_walls, 1e-12);
+    EXPECT_NEAR(testing::volume_of(cube), 1.0 - 0.15 * num_walls, 1e-9);
+    for (LocalIndex v = 0; v < cube.num_vertices(); ++v) {
+      const double moved = std::abs(cube.position(v)[0] - closed.position(v)[0]);
+      if (cube.layers.wall(v) != cube.position(v)) {
+        EXPECT_NEAR(moved, 0.15, 1e-12);
+      }
+    }
+  }
 }
 
 TEST(GrowLayers, RefusesWhatItCannotDo)
