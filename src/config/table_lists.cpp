@@ -260,9 +260,11 @@ constexpr Key kPlaneKeys[] = {
 constexpr Key kLayerKeys[] = {
     {.name = "layer.patch",
      .rule = TextRule{[](Case& c) -> std::string& { return c.layers.back().patch; }},
-     .meaning = "The patches of that name, or whose names match it: * stands for any characters, ? "
-                "for one, [ab] for one of these. Of a pattern, those inside of the model are left "
-                "out. No patch may fit two entries.",
+     .meaning =
+         "The patches of that name, or whose names match it: * stands for any characters, ? "
+         "for one, [ab] for one of these. A patch that is split has layers on both sides, or "
+         "on one by the name of that side. What lies inside of the model is left out. No "
+         "patch may fit two entries.",
      .reason = "layers are on walls, and only the user knows which patches these are",
      .example = "\"wall*\""},
     {.name = "layer.first",

@@ -50,7 +50,7 @@ std::vector<std::string> obstacles_of_patches(const mesh::CoarseMesh& mesh)
 // A split patch by its own name, or one of its sides by that of the side.
 std::vector<bool> patches_that_fit(const std::string& pattern, const mesh::CoarseMesh& mesh)
 {
-  const std::vector<std::string> names = mesh::names_of_sides(mesh);
+  const std::vector<std::string> names = mesh::final_patch_names(mesh);
   std::vector<bool> fits(names.size());
   for (std::size_t p = 0; p < fits.size(); ++p) {
     fits[p] = matches_pattern(pattern, mesh.patch_names[p]) || matches_pattern(pattern, names[p]);
@@ -58,19 +58,22 @@ std::vector<bool> patches_that_fit(const std::string& pattern, const mesh::Coars
   return std::ranges::count(fits, true) > 0 ? fits : matching_names("patch", pattern, names);
 }
 
-// The patches that an entry fits. Of a pattern those that can be no wall are left out; one that is
-// named is an error.
+// The patches that an entry fits. Those that can be no wall are left out, unless nothing else is
+// left.
 std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& mesh,
                            const std::vector<std::string>& obstacles)
 {
   std::vector<bool> fits = patches_that_fit(entry.patch, mesh);
+  std::string obstacle;
   for (std::size_t p = 0; p < fits.size(); ++p) {
     if (!fits[p] || obstacles[p].empty()) continue;
     fits[p] = false;
-    if (mesh.patch_names[p] != entry.patch) continue;
-    throw ConfigError(fmt::format("patch \"{}\" lies {}", entry.patch, obstacles[p]));
+    if (mesh.patch_names[p] == entry.patch) obstacle = obstacles[p];
   }
   if (std::ranges::count(fits, true) > 0) return fits;
+  if (!obstacle.empty()) {
+    throw ConfigError(fmt::format("patch \"{}\" lies {}", entry.patch, obstacle));
+  }
   throw ConfigError(fmt::format(
       "all patches that \"{}\" fits lie inside of the model or on sides of [[periodic]]; layers "
       "are for the rest of its outside",

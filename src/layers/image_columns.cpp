@@ -48,45 +48,126 @@ const WallVertex& shortest(std::span<const LocalIndex> members, const WallSurfac
       *std::ranges::min_element(members, {}, [&](LocalIndex v) { return norm(vertex(v).column); }));
 }
 
+// Vertices on a side of a split that has no layers: a column there goes along it, and so must those
+// of the vertex's copies.
+std::vector<bool> vertices_beside_splits(const mesh::CoarseMesh& mesh, const WallSurface& walls)
+{
+  std::vector<bool> is_side(at(mesh.num_patches()), false);
+  for (LocalIndex minus = 0; minus < mesh.num_patches(); ++minus) {
+    if (!mesh.images.is_of_split(minus)) continue;
+    is_side[at(minus)] = is_side[at(mesh.images.patch_origin[at(minus)])] = true;
+  }
+  std::vector<bool> is_beside(at(mesh.num_vertices()), false);
+  for (const SurfaceTriangle& triangle : walls.triangles) {
+    if (triangle.is_wall || !is_side[at(mesh.face_patch[at(triangle.face)])]) continue;
+    for (const LocalIndex v : triangle.vertices) is_beside[at(v)] = true;
+  }
+  return is_beside;
+}
+
+// Lives for one call of join_image_columns().
+class ColumnJoiner {
+ public:
+  ColumnJoiner(const mesh::CoarseMesh& mesh, const std::set<WallEdge>& on_walls, WallSurface& walls)
+      : mesh_(mesh),
+        walls_(walls),
+        orbits_(mesh::find_vertex_orbits(mesh)),
+        is_end_(ends_of_unlike_edges(mesh, on_walls)),
+        is_beside_split_(vertices_beside_splits(mesh, walls))
+  {
+    walls.images = orbits_.images;
+  }
+
+  void run()
+  {
+    const IndexLists members_of = rows_by_key(orbits_.vertices.base, mesh_.num_vertices());
+    for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
+      const auto members = members_of[base];
+      if (members.size() < 2 || are_free(members)) continue;
+      if (are_alike(members)) {
+        join(base, members);
+      } else {
+        leave_out(members);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_on_wall(LocalIndex v) const
+  {
+    return walls_.wall_of_vertex[at(v)] != kNoIndex;
+  }
+  [[nodiscard]] WallVertex& vertex(LocalIndex v) const
+  {
+    return walls_.vertices[at(walls_.wall_of_vertex[at(v)])];
+  }
+  [[nodiscard]] LocalIndex image_of(LocalIndex v) const { return orbits_.vertices.image_of(v); }
+
+  // Copies on walls of their own, at the two sides of a split.
+  [[nodiscard]] bool are_free(std::span<const LocalIndex> members) const
+  {
+    return std::ranges::all_of(members, [&](LocalIndex v) {
+      return image_of(v) == 0 && !(is_on_wall(v) && is_beside_split_[at(v)]);
+    });
+  }
+
+  [[nodiscard]] bool are_alike(std::span<const LocalIndex> members) const
+  {
+    return std::ranges::all_of(members, [&](LocalIndex v) {
+      const auto first =
+          std::ranges::find(members, image_of(v), [&](LocalIndex one) { return image_of(one); });
+      const bool is_copied =
+          std::ranges::count(members, image_of(v), [&](LocalIndex one) { return image_of(one); })
+          > 1;
+      return is_on_wall(v) && !is_end_[at(v)] && vertex(v).column != Vec3{}
+             && (!is_copied || (is_beside_split_[at(v)] && go_one_way(v, *first)));
+    });
+  }
+
+  // Along the same curve, or patches on the same surface. @pre Both are on walls.
+  [[nodiscard]] bool go_one_way(LocalIndex a, LocalIndex b) const
+  {
+    const auto surface = [&](LocalIndex v) {
+      const LocalIndex patch = vertex(v).patch;
+      return patch == kNoIndex ? kNoIndex : LocalIndex{mesh_.patch_surface[at(patch)]};
+    };
+    return is_on_wall(b) && vertex(a).curve == vertex(b).curve && surface(a) == surface(b);
+  }
+
+  void join(LocalIndex base, std::span<const LocalIndex> members)
+  {
+    const WallVertex& leader = shortest(members, walls_);
+    const Vec3 column = norm(leader.column) * common_direction(members, orbits_, walls_);
+    const LocalIndex stack = leader.stack;
+    for (const LocalIndex v : members) {
+      WallVertex& one = vertex(v);
+      one.origin = walls_.wall_of_vertex[at(base)];
+      one.image = image_of(v);
+      one.column = orbits_.images[at(one.image)].turned(column);
+      one.stack = stack;
+    }
+  }
+
+  void leave_out(std::span<const LocalIndex> members)
+  {
+    for (const LocalIndex v : members) {
+      if (is_on_wall(v)) vertex(v).column = Vec3{};
+    }
+  }
+
+  const mesh::CoarseMesh& mesh_;
+  WallSurface& walls_;
+  mesh::VertexOrbits orbits_;
+  std::vector<bool> is_end_;
+  std::vector<bool> is_beside_split_;
+};
+
 }  // namespace
 
 void join_image_columns(const mesh::CoarseMesh& mesh, const std::set<WallEdge>& on_walls,
                         WallSurface& walls)
 {
-  if (mesh.images.are_none()) return;
-  const mesh::VertexOrbits orbits = mesh::find_vertex_orbits(mesh);
-  const std::vector<bool> is_end = ends_of_unlike_edges(mesh, on_walls);
-  const IndexLists members_of = rows_by_key(orbits.vertices.base, mesh.num_vertices());
-  walls.images = orbits.images;
-  for (LocalIndex base = 0; base < mesh.num_vertices(); ++base) {
-    const auto members = members_of[base];
-    const auto at_one_place = std::ranges::count_if(
-        members, [&](LocalIndex v) { return orbits.vertices.image_of(v) == 0; });
-    // The sides of a split are walls of their own.
-    if (std::cmp_equal(at_one_place, members.size())) continue;
-    const auto row_of = [&](LocalIndex v) { return walls.wall_of_vertex[at(v)]; };
-    const bool is_alike = at_one_place == 1 && std::ranges::all_of(members, [&](LocalIndex v) {
-                            return row_of(v) != kNoIndex && !is_end[at(v)]
-                                   && walls.vertices[at(row_of(v))].column != Vec3{};
-                          });
-    Vec3 column{};
-    LocalIndex stack = 0;
-    if (is_alike) {
-      const WallVertex& leader = shortest(members, walls);
-      column = norm(leader.column) * common_direction(members, orbits, walls);
-      stack = leader.stack;
-    }
-    for (const LocalIndex v : members) {
-      if (row_of(v) == kNoIndex) continue;
-      WallVertex& vertex = walls.vertices[at(row_of(v))];
-      vertex.column = Vec3{};
-      vertex.stack = stack;
-      if (!is_alike) continue;
-      vertex.origin = row_of(base);
-      vertex.image = orbits.vertices.image_of(v);
-      vertex.column = orbits.images[at(vertex.image)].turned(column);
-    }
-  }
+  if (!mesh.images.are_none()) ColumnJoiner(mesh, on_walls, walls).run();
 }
 
 }  // namespace tessera::layers

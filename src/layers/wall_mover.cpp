@@ -178,14 +178,18 @@ void WallMover::update_parameters()
 {
   if (!mesh_.segment_t.empty()) {
     for (const WallVertex& vertex : walls_.vertices) {
-      const bool has_moved = part_[at(vertex.origin)] > 0.0 && vertex.column != Vec3{};
-      if (has_moved && vertex.curve != kNoIndex) update_segments_at(vertex);
+      if (has_moved(vertex) && vertex.curve != kNoIndex) update_segments_at(vertex);
     }
   }
   if (mesh_.face_uv.empty()) return;
   for (const SurfaceTriangle& triangle : walls_.triangles) {
     if (!triangle.is_wall) update_face(triangle.face);
   }
+}
+
+bool WallMover::has_moved(const WallVertex& vertex) const
+{
+  return part_[at(vertex.origin)] > 0.0 && vertex.column != Vec3{};
 }
 
 // Those that leave the wall; what lies on it stays there.
@@ -204,7 +208,8 @@ void WallMover::update_face(LocalIndex face)
   const LocalIndex surface = mesh_.patch_surface[at(mesh_.face_patch[at(face)])];
   for (std::size_t c = 3 * at(face); c < 3 * at(face) + 3; ++c) {
     const LocalIndex v = mesh_.face_vertices[c];
-    if (walls_.wall_of_vertex[at(v)] == kNoIndex) continue;
+    const LocalIndex row = walls_.wall_of_vertex[at(v)];
+    if (row == kNoIndex || !has_moved(walls_.vertices[at(row)])) continue;
     double* uv = &mesh_.face_uv[2 * c];
     std::ranges::copy(model_.project_to_surface(surface, mesh_.position(v), {uv[0], uv[1]}).uv, uv);
   }

@@ -40,6 +40,7 @@ class WallMover {
   [[nodiscard]] Vec3 beside_wall(const WallVertex& vertex, const Vec3& point) const;
   void place(std::span<const double> parts);
   void find_tets();
+  [[nodiscard]] bool has_moved(const WallVertex& vertex) const;
   void update_segments_at(const WallVertex& vertex);
   void update_face(LocalIndex face);
   /// Of the vertices of all that is bad, or of those that these go along with.

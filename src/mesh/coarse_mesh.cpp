@@ -185,7 +185,7 @@ std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh
   return names;
 }
 
-std::vector<std::string> names_of_sides(const CoarseMesh& mesh)
+std::vector<std::string> final_patch_names(const CoarseMesh& mesh)
 {
   std::vector<std::string> names = mesh.patch_names;
   for (LocalIndex minus = 0; minus < mesh.num_patches(); ++minus) {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "tessera/base/index_lists.hpp"
-#include "tessera/mesh/coarse_edges.hpp"
 
 #include "topology/split_faces.hpp"
 
@@ -36,7 +35,7 @@ class Opener {
     open_segments();
     open_faces();
     mesh_.tet_vertices = std::move(tets);
-    mesh_.vertex_xyz = copied(mesh_.vertex_xyz);
+    copy_vertices();
   }
 
  private:
@@ -46,14 +45,14 @@ class Opener {
   }
 
   // Copies of a vertex stand at one place.
-  [[nodiscard]] FlatArray<double> copied(const FlatArray<double>& xyz) const
+  void copy_vertices()
   {
     FlatArray<double> all;
-    if (xyz.empty()) return all;
     for (const LocalIndex v : origin_) {
-      all.insert(all.end(), &xyz[3 * at(v)], &xyz[3 * at(v)] + 3);
+      const Vec3 place = mesh_.position(v);
+      all.insert(all.end(), place.begin(), place.end());
     }
-    return all;
+    mesh_.vertex_xyz = std::move(all);
   }
 
   // What is opened of a patch is patches of its own, unless it is all of it: then that is one side.
@@ -100,7 +99,7 @@ class Opener {
   void name_rows_anew()
   {
     if (mesh_.patch_row.empty()) return;
-    const std::vector<std::string> names = mesh::names_of_sides(mesh_);
+    const std::vector<std::string> names = mesh::final_patch_names(mesh_);
     std::map<std::pair<LocalIndex, std::string>, LocalIndex> rows;
     for (LocalIndex p = 0; p < mesh_.num_patches(); ++p) {
       const auto next = static_cast<LocalIndex>(rows.size());

@@ -253,6 +253,7 @@ class SeveralEntries(LayersTest):
         for axis, at_wall, (_, first, growth, count) in zip((2, 0, 0), (0.0, 0.0, 1.0), self.ENTRIES):
             ends = numpy.cumsum([0.0] + [first * growth**i for i in range(count)])
             # In the middle of the wall, away from the others.
+            found = set()
             for cell in numpy.flatnonzero(layer):
                 points = numpy.array(points_of(layers, cell))
                 away = numpy.abs(points[:, axis] - at_wall)
@@ -261,6 +262,8 @@ class SeveralEntries(LayersTest):
                     continue
                 self.assertAlmostEqual(away.min(), ends[layer[cell] - 1], places=9)
                 self.assertAlmostEqual(away.max(), ends[layer[cell]], places=9)
+                found.add(int(layer[cell]))
+            self.assertEqual(found, set(range(1, count + 1)))
 
     def test_are_prisms_in_other_formats(self):
         out = self.mesh(self.box("output.formats = ['openfoam-serial']\n"), "out", ranks=2)
@@ -272,41 +275,62 @@ class SeveralEntries(LayersTest):
 
 
 class Baffle(LayersTest):
-    """A plate that reaches into a channel from its floor, and ends in the middle: layers on both of its sides."""
+    """A plate that reaches into a channel from its floor, and ends in the middle."""
 
     CHANNEL = (
-        "algebraic3d\nsolid channel = orthobrick (0, 0, 0; 2, 1, 1);\ntlo channel;\n"
+        "algebraic3d\nsolid channel = plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 0; -1, 0, 0) and plane (2, 1, 1; 1, 0, 0)\n"
+        "  and plane (0, 0, 0; 0, -1, 0) and plane (2, 1, 1; 0, 1, 0) and plane (2, 1, 1; 0, 0, 1);\ntlo channel;\n"
     )
+    FLOOR = "patch_1"
+    THICKNESS = 0.01 * (1.0 + 1.2 + 1.44)
 
-    def channel(self, layered):
+    def channel(self, walls):
         self.write("model.geo", self.CHANNEL)
+        layers = "".join(f"[[layer]]\npatch = '{name}'\nfirst = 0.01\ncount = 3\n" for name in walls)
         return self.write(
             "case.toml",
             f"geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = 5\nrefine.levels = 1\n{program.NO_PAGE}"
             "[[embed]]\nname = 'plate'\npolygon = [[1, 0, 0], [1, 1, 0], [1, 1, 0.5], [1, 0, 0.5]]\n"
-            "[[split]]\npatch = 'plate'\n"
-            f"[[layer]]\npatch = '{layered}'\nfirst = 0.01\ncount = 3\n")
+            f"[[split]]\npatch = 'plate'\n{layers}")
+
+    def made(self, name, *walls):
+        """The report of a checked mesh, which says that both sides of the plate still are alike; its folder."""
+        out = self.mesh(self.channel(walls), name)
+        report = self.checked(out)
+        self.assertEqual(report["splits"], [{"plus": "plate_plus", "minus": "plate_minus"}])
+        self.assertAlmostEqual(report["volume"], 2.0, places=9)
+        return report, out
+
+    def sides_with_layers(self, out):
+        """On which sides of the plate there are layers."""
+        grid = grid_of(out / "mesh.pvtu")
+        signs = set()
+        for cell in numpy.flatnonzero(vtk_to_numpy(grid.GetCellData().GetArray("layer"))):
+            away = numpy.array(points_of(grid, cell))[:, 0] - 1.0
+            self.assertLess(abs(away).max(), 1.01 * self.THICKNESS)
+            signs.add(math.copysign(1.0, away.mean()))
+        return len(signs)
 
     def test_has_layers_on_both_sides_or_on_one(self):
-        for layered, sides in (("plate", {"plate_minus", "plate_plus"}), ("plate_minus", {"plate_minus"})):
-            with self.subTest(layered=layered):
-                case = self.channel(layered)
-                out = self.mesh(case, f"{layered}_1")
-                report = self.checked(out)
+        for wall, sides in (("plate", {"plate_minus", "plate_plus"}), ("plate_minus", {"plate_minus"})):
+            with self.subTest(wall=wall):
+                report, out = self.made(wall, wall)
                 self.assertEqual({patch["name"] for patch in report["layers"]["patches"]}, sides)
                 self.assertGreater(report["layers"]["full_height"], 0.5)
-                self.assertEqual(report["splits"], [{"plus": "plate_plus", "minus": "plate_minus"}])
-                self.assertAlmostEqual(report["volume"], 2.0, places=9)
-                other = self.mesh(case, f"{layered}_3", ranks=3)
+                self.assertEqual(self.sides_with_layers(out), len(sides))
+                other = self.mesh(self.folder / "case.toml", f"{wall}_3", ranks=3)
                 self.assertEqual(program.mesh_files(other), program.mesh_files(out))
-                grid = grid_of(out / "mesh.pvtu")
-                layer = vtk_to_numpy(grid.GetCellData().GetArray("layer"))
-                signs = set()
-                for cell in numpy.flatnonzero(layer):
-                    points = numpy.array(points_of(grid, cell))
-                    signs.add(math.copysign(1.0, points[:, 0].mean() - 1.0))
-                    self.assertLess(abs(points[:, 0] - 1.0).max(), 0.01 * (1 + 1.2 + 1.44) * 1.01)
-                self.assertEqual(len(signs), len(sides))
+
+    def test_stands_in_layers_of_the_floor(self):
+        covered = {}
+        for walls in ((self.FLOOR,), (self.FLOOR, "plate"), (self.FLOOR, "plate_plus")):
+            with self.subTest(walls=walls):
+                report, _ = self.made("_".join(walls), *walls)
+                covered[walls] = {patch["name"]: patch["covered"] for patch in report["layers"]["patches"]}
+        # Beside a plate without layers those of the floor go through; beside one that has them on one side they close.
+        self.assertGreater(covered[(self.FLOOR,)][self.FLOOR], 0.999)
+        self.assertGreater(covered[(self.FLOOR, "plate")][self.FLOOR], 0.999)
+        self.assertLess(covered[(self.FLOOR, "plate_plus")][self.FLOOR], 0.999)
 
 
 class Refused(LayersTest):

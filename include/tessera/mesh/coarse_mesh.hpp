@@ -116,9 +116,9 @@ struct CoarseMesh {
 /// @brief Names of the two sides of each split, plus and minus. Local.
 [[nodiscard]] std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh);
 
-/// @brief The names of patches, with `_plus` and `_minus` behind those of the sides of a split,
-/// which have one name as long as the coarse mesh is made. Shape (num_patches). Local.
-[[nodiscard]] std::vector<std::string> names_of_sides(const CoarseMesh& mesh);
+/// @brief The names that patches have in the end: those of the sides of a split get `_plus` and
+/// `_minus`. Shape (num_patches). Local. @pre The sides still have the name of the whole patch.
+[[nodiscard]] std::vector<std::string> final_patch_names(const CoarseMesh& mesh);
 
 /// @brief Names of the patches inside of bodies, each once. Local.
 [[nodiscard]] std::vector<std::string> inside_patch_names(const CoarseMesh& mesh);

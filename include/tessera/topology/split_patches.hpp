@@ -25,8 +25,8 @@ void divide_at_rims(mesh::CoarseMesh& mesh, const SplitOptions& options, const m
 
 /// @brief Opens a mesh. What is opened of a patch becomes two: the plus side on the material with
 /// the lower number, and the minus side on the other one, which is its image: CoarseMesh::images.
-/// Both keep its name: mesh::names_of_sides(). Copies of vertices stand right behind each other, so
-/// on both sides all orders of vertices are the same: what is made of these sides has the same
+/// Both keep its name: mesh::final_patch_names(). Copies of vertices stand right behind each other,
+/// so on both sides all orders of vertices are the same: what is made of these sides has the same
 /// bits. Local; O(n log n).
 /// @pre !are_rims_near(); no layers. @post mesh::validate() accepts the mesh.
 /// @throws as are_rims_near().

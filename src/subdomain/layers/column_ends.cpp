@@ -29,42 +29,55 @@ ColumnEnds::ColumnEnds(const mesh::CoarseMesh& coarse, const mesh::Skeleton& ske
 {
   for (const LocalIndex v : vertices_of(skeleton, kind, row)) {
     const LocalIndex of_mesh = skeleton.vertex_coarse[at(v)];
-    const double length = norm(coarse.position(of_mesh) - layers_.wall(of_mesh));
-    corners_.push_back({layers_.vertex_stack[at(of_mesh)], length});
+    corners_.push_back(
+        {layers_.vertex_stack[at(of_mesh)], coarse.position(of_mesh) - layers_.wall(of_mesh)});
   }
   // A corner without a column has no say.
-  common_stack_ = std::ranges::max_element(corners_, {}, &Corner::length)->stack;
-  are_alike_ = std::ranges::all_of(corners_, [&](const Corner& corner) {
-    return corner.length == 0.0 || corner.stack == common_stack_;
-  });
+  const auto has_column = [](const Corner& corner) { return corner.column != Vec3{}; };
+  const LocalIndex stack = std::ranges::find_if(corners_, has_column)->stack;
+  are_alike_ = std::ranges::all_of(
+      corners_, [&](const Corner& corner) { return !has_column(corner) || corner.stack == stack; });
+  for (const double end : layers_.ends_of(stack)) ends_.push_back({.part = end});
 }
 
 std::array<double, 3> ColumnEnds::weights(LocalIndex index) const
 {
-  const LocalIndex n = intervals_;
-  if (kind_ == mesh::HostKind::edge) {
-    return {static_cast<double>(n - 1 - index), static_cast<double>(index + 1), 0.0};
-  }
-  const auto [i, j] = mesh::lattice::inner_triangle_point(n, index);
-  return {static_cast<double>(n - i - j), static_cast<double>(i), static_cast<double>(j)};
+  const double n = intervals_;
+  if (kind_ == mesh::HostKind::edge) return {(n - 1 - index) / n, (index + 1) / n, 0.0};
+  const auto [i, j] = mesh::lattice::inner_triangle_point(intervals_, index);
+  return {(n - i - j) / n, i / n, j / n};
 }
 
-std::span<const double> ColumnEnds::at_point(LocalIndex index)
+std::span<const LayerEnd> ColumnEnds::at_point(LocalIndex index)
 {
-  if (are_alike_) return layers_.ends_of(common_stack_);
+  if (are_alike_) return ends_;
   const std::array<double, 3> weight = weights(index);
-  double length = 0.0;
-  for (std::size_t c = 0; c < corners_.size(); ++c) length += weight[c] * corners_[c].length;
-  mixed_.clear();
   for (LocalIndex layer = 0; layer < layers_.most_layers; ++layer) {
-    double height = 0.0;  // Of the end above the wall.
-    for (std::size_t c = 0; c < corners_.size(); ++c) {
-      const double end = layers_.ends_of(corners_[c].stack)[at(layer)];
-      height += weight[c] * corners_[c].length * (1.0 - end);
-    }
-    mixed_.push_back(1.0 - height / length);
+    ends_[at(layer)] = mixed_end(weight, layer);
   }
-  return mixed_;
+  return ends_;
+}
+
+// The column is about the mean of those of the corners. To that the layer ends at the mean height,
+// and the rest is what corners with another height lean to their sides.
+LayerEnd ColumnEnds::mixed_end(const std::array<double, 3>& weight, LocalIndex layer) const
+{
+  const auto part_of_height = [&](const Corner& corner) {
+    return 1.0 - layers_.ends_of(corner.stack)[at(layer)];
+  };
+  double length = 0.0;
+  double height = 0.0;
+  for (std::size_t c = 0; c < corners_.size(); ++c) {
+    const double of_corner = weight[c] * norm(corners_[c].column);
+    length += of_corner;
+    height += of_corner * part_of_height(corners_[c]);
+  }
+  const double mean = height / length;
+  Vec3 aside{};
+  for (std::size_t c = 0; c < corners_.size(); ++c) {
+    aside = aside + (weight[c] * (part_of_height(corners_[c]) - mean)) * corners_[c].column;
+  }
+  return {.part = 1.0 - mean, .aside = aside};
 }
 
 }  // namespace tessera::subdomain

@@ -121,17 +121,18 @@ class ColumnMaker {
     return {skin_.vertex_host[at(v)], skin_.vertex_index[at(v)]};
   }
 
-  void add_points(LocalIndex v, std::span<const double> ends)
+  void add_points(LocalIndex v, std::span<const LayerEnd> ends)
   {
     const Vec3 wall = point_at(std::span(walls_.vertex_xyz), v);
     const Column column = column_of(v, wall);
-    const auto point_at_end = [&](double end) {
-      if (end == 0.0) return point_at(std::span(skin_.vertex_xyz), v);
-      if (end == 1.0) return wall;
-      const Vec3 straight = column.wall + (1.0 - end) * (column.tets - column.wall);
+    const auto point_at_end = [&](const LayerEnd& end) {
+      if (end.part == 0.0) return point_at(std::span(skin_.vertex_xyz), v);
+      if (end.part == 1.0) return wall;
+      const Vec3 straight =
+          column.wall + (1.0 - end.part) * (column.tets - column.wall) + end.aside;
       return refine_.skeleton.orbits.image(column.image, on_side_patch(name(v), column, straight));
     };
-    for (const double end : ends) {
+    for (const LayerEnd& end : ends) {
       const Vec3 point = point_at_end(end);
       columns_.point_xyz.insert(columns_.point_xyz.end(), point.begin(), point.end());
     }

@@ -145,12 +145,48 @@ TEST(GrowLayers, StandOnTheSidesOfASplit)
     EXPECT_EQ(cover.patches.size(), at(num_walls));
     EXPECT_NEAR(cover.sum().full, num_walls, 1e-12);
     EXPECT_NEAR(testing::volume_of(cube), 1.0 - 0.15 * num_walls, 1e-9);
+    LocalIndex num_moved = 0;
     for (LocalIndex v = 0; v < cube.num_vertices(); ++v) {
-      const double moved = std::abs(cube.position(v)[0] - closed.position(v)[0]);
-      if (cube.layers.wall(v) != cube.position(v)) {
-        EXPECT_NEAR(moved, 0.15, 1e-12);
-      }
+      if (cube.layers.wall(v) == cube.position(v)) continue;
+      EXPECT_NEAR(std::abs(cube.position(v)[0] - closed.position(v)[0]), 0.15, 1e-12);
+      ++num_moved;
     }
+    EXPECT_EQ(num_moved, 25 * num_walls);
+  }
+}
+
+// Walls beside a split whose sides have no layers: on both materials, then on one of them. Each
+// time the copies of a vertex stay at one place.
+TEST(GrowLayers, KeepTheSidesOfASplitTogether)
+{
+  mesh::CoarseMesh closed = testing::two_material_cube(4);
+  // The floor of each material is a patch of its own.
+  const LocalIndex floor = 4;
+  closed.patch_names.emplace_back("floor_2");
+  closed.patch_surface.push_back(LocalIndex{closed.patch_surface[at(floor)]});
+  for (LocalIndex f = 0; f < closed.num_faces(); ++f) {
+    if (closed.face_patch[at(f)] != floor) continue;
+    double x = 0.0;
+    for (std::size_t c = 0; c < 3; ++c)
+      x += closed.position(closed.face_vertices[3 * at(f) + c])[0];
+    if (x > 1.5) closed.face_patch[at(f)] = 7;
+  }
+  topology::split_patches(closed, {.patches = {{closed.patch_names[6]}}});
+  const std::string name = closed.patch_names[floor];
+  for (const auto& walls :
+       {std::vector{two_layers(name), two_layers("floor_2")}, std::vector{two_layers("floor_2")}}) {
+    mesh::CoarseMesh cube = closed;
+    (void)grow_layers(cube, walls, kModel, true);
+    LocalIndex num_copies = 0;
+    LocalIndex num_moved = 0;
+    for (LocalIndex v = 1; v < cube.num_vertices(); ++v) {
+      if (closed.position(v) != closed.position(v - 1)) continue;
+      EXPECT_EQ(cube.position(v), cube.position(v - 1));
+      if (cube.position(v) != closed.position(v)) ++num_moved;
+      ++num_copies;
+    }
+    EXPECT_EQ(num_copies, 25);
+    EXPECT_EQ(num_moved, walls.size() == 2 ? 5 : 0);
   }
 }
 

@@ -23,6 +23,8 @@ TEST(TriangleLattice, IndicesAreDenseRowByRow)
       for (LocalIndex i = 0; i + j <= n; ++i) {
         EXPECT_EQ(triangle_index(n, i, j), all++);
         if (i > 0 && j > 0 && i + j < n) {
+          const auto [same_i, same_j] = inner_triangle_point(n, inner);
+          EXPECT_EQ(std::pair(same_i, same_j), std::pair(i, j));
           EXPECT_EQ(inner_triangle_index(n, i, j), inner++);
         }
       }

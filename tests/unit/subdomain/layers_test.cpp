@@ -22,12 +22,12 @@
 namespace tessera::subdomain {
 namespace {
 
-// A cube with layers on some patches, in four subdomains of two materials.
 struct Wall {
   std::size_t patch = 0;
   int count = 3;
 };
 
+// A cube with layers on some patches, in four subdomains of two materials.
 class LayeredCube : public ::testing::TestWithParam<std::vector<Wall>> {
  protected:
   LayeredCube() : coarse_(with_layers_on(GetParam())), body_(coarse_, testing::slabs(coarse_, 2)) {}
