@@ -265,6 +265,15 @@ class SeveralEntries(LayersTest):
                 found.add(int(layer[cell]))
             self.assertEqual(found, set(range(1, count + 1)))
 
+    def test_where_edges_have_levels_of_their_own(self):
+        """Near the edge where two of the entries meet."""
+        case = self.box("size.target = 0.2\n[[size.region]]\nsize = 0.06\nball = { centre = [0, 0.5, 0], radius = 0.2 }\n")
+        case.write_text(case.read_text().replace("refine.levels = 1\n", "").replace("coarse.max_size = 0.3\n", ""))
+        out = self.mesh(case, "out", ranks=2)
+        figures = self.checked(out)
+        self.assertEqual(figures["layers"]["count"], 6)
+        self.assertAlmostEqual(figures["volume"], 1.0, places=9)
+
     def test_are_prisms_in_other_formats(self):
         out = self.mesh(self.box("output.formats = ['openfoam-serial']\n"), "out", ranks=2)
         figures = self.checked(out)
