@@ -237,7 +237,7 @@ class SeveralEntries(LayersTest):
             f"[[layer]]\npatch = '{name}'\nfirst = {first}\ngrowth = {growth}\ncount = {count}\n"
             for name, first, growth, count in self.ENTRIES)
         return self.write(
-            "box.toml", f"geometry.file = 'box.geo'\ncoarse.max_size = 0.3\ndecompose.subdomains = 5\n"
+            "box.toml", f"geometry.file = 'box.geo'\ncoarse.max_size = 0.2\ndecompose.subdomains = 5\n"
             f"refine.levels = 1\n{program.NO_PAGE}{more}{layers}")
 
     def test_have_layers_of_their_own_that_meet(self):
@@ -258,7 +258,7 @@ class SeveralEntries(LayersTest):
                 points = numpy.array(points_of(layers, cell))
                 away = numpy.abs(points[:, axis] - at_wall)
                 others = numpy.delete(points, axis, axis=1)
-                if away.max() > ends[-1] + 1e-9 or others.min() < 0.35 or others.max() > 0.65:
+                if away.max() > ends[-1] + 1e-9 or others.min() < 0.27 or others.max() > 0.73:
                     continue
                 self.assertAlmostEqual(away.min(), ends[layer[cell] - 1], places=9)
                 self.assertAlmostEqual(away.max(), ends[layer[cell]], places=9)
@@ -268,7 +268,7 @@ class SeveralEntries(LayersTest):
     def test_where_edges_have_levels_of_their_own(self):
         """Near the edge where two of the entries meet."""
         case = self.box("size.target = 0.2\n[[size.region]]\nsize = 0.06\nball = { centre = [0, 0.5, 0], radius = 0.2 }\n")
-        case.write_text(case.read_text().replace("refine.levels = 1\n", "").replace("coarse.max_size = 0.3\n", ""))
+        case.write_text(case.read_text().replace("refine.levels = 1\n", "").replace("coarse.max_size = 0.2\n", ""))
         out = self.mesh(case, "out", ranks=2)
         figures = self.checked(out)
         self.assertEqual(figures["layers"]["count"], 6)
