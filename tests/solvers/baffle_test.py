@@ -39,6 +39,12 @@ SPLIT = """
 [[split]]
 patch = "baffle"
 """
+LAYERS = """
+[[layer]]
+patch = "baffle"
+first = 0.004
+count = 3
+"""
 
 
 class Baffle(unittest.TestCase):
@@ -85,6 +91,15 @@ class Baffle(unittest.TestCase):
         print(f"added length: exact {ADDED:.5f}, in one mesh {found[0]:.5f}, in parts {found[1]:.5f}")
         self.assertLess(abs(found[0] / ADDED - 1.0), 0.035)  # 2.8 %, and 2.3 % with edges of half the length.
         self.assertAlmostEqual(found[1], found[0], delta=1e-5)
+
+    def test_layers_on_both_sides_do_not_disturb_it(self):
+        mesh = made_of(MODEL, CASE + SPLIT + LAYERS, parts=PARTS)
+        self.addCleanup(mesh.remove)
+        folder = mesh.convert("openfoam-serial")
+        self.assertIn("Mesh OK.", self.run_in(folder, "checkMesh"))
+        found = self.added_length(folder)
+        print(f"added length with layers: {found:.5f}")
+        self.assertLess(abs(found / ADDED - 1.0), 0.035)
 
     def test_without_a_split_it_goes_through(self):
         """So the test above looks at what it is meant to."""
