@@ -6,6 +6,7 @@
 #include "tessera/layers/grow_layers.hpp"
 
 #include "support/decompositions.hpp"
+#include "support/filled_cube.hpp"
 #include "support/flat_model.hpp"
 #include "support/meshes.hpp"
 
