@@ -5,8 +5,8 @@
 
 #include "tessera/layers/grow_layers.hpp"
 
+#include "support/bodies.hpp"
 #include "support/decompositions.hpp"
-#include "support/filled_cube.hpp"
 #include "support/flat_model.hpp"
 #include "support/meshes.hpp"
 
