@@ -263,8 +263,8 @@ constexpr Key kLayerKeys[] = {
      .meaning =
          "The patches of that name, or whose names match it: * stands for any characters, ? "
          "for one, [ab] for one of these. A patch that is split has layers on both sides, or "
-         "on one by the name of that side. What lies inside of the model is left out. No "
-         "patch may fit two entries.",
+         "on one by the name of that side. Other patches inside of the model and sides of "
+         "[[periodic]] are left out. No patch may fit two entries.",
      .reason = "layers are on walls, and only the user knows which patches these are",
      .example = "\"wall*\""},
     {.name = "layer.first",

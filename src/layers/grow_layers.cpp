@@ -37,7 +37,8 @@ std::vector<std::string> obstacles_of_patches(const mesh::CoarseMesh& mesh)
   const std::vector<mesh::TriangleTets> faces = mesh::tets_of_faces(mesh);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (faces[f].tets[1] == kNoIndex) continue;
-    obstacles[at(mesh.face_patch[f])] = "inside of the model; layers are for its outside";
+    obstacles[at(mesh.face_patch[f])] =
+        "inside of the model; layers are for its outside and for the sides of a [[split]]";
   }
   for (LocalIndex p = 0; p < static_cast<LocalIndex>(mesh.images.patch_origin.size()); ++p) {
     const LocalIndex origin = mesh.images.patch_origin[at(p)];
@@ -58,8 +59,8 @@ std::vector<bool> patches_that_fit(const std::string& pattern, const mesh::Coars
   return std::ranges::count(fits, true) > 0 ? fits : matching_names("patch", pattern, names);
 }
 
-// The patches that an entry fits. Those that can be no wall are left out, unless nothing else is
-// left.
+// The patches that an entry fits. Those that can be no wall are left out; it is an error if nothing
+// is left.
 std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& mesh,
                            const std::vector<std::string>& obstacles)
 {
@@ -76,7 +77,7 @@ std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& me
   }
   throw ConfigError(fmt::format(
       "all patches that \"{}\" fits lie inside of the model or on sides of [[periodic]]; layers "
-      "are for the rest of its outside",
+      "are for the rest of its outside, and for the sides of a [[split]]",
       entry.patch));
 }
 

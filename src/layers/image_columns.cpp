@@ -113,14 +113,23 @@ class ColumnJoiner {
 
   [[nodiscard]] bool are_alike(std::span<const LocalIndex> members) const
   {
+    const auto image = [&](LocalIndex v) { return image_of(v); };
+    const auto may_join = [&](LocalIndex v) {
+      if (!is_on_wall(v) || is_end_[at(v)] || vertex(v).column == Vec3{}) return false;
+      if (std::ranges::count(members, image_of(v), image) == 1) return true;
+      return is_beside_split_[at(v)]
+             && go_one_way(v, *std::ranges::find(members, image_of(v), image));
+    };
+    return std::ranges::all_of(members, may_join) && go_together(members);
+  }
+
+  // Where split patches cross, copies may go apart.
+  [[nodiscard]] bool go_together(std::span<const LocalIndex> members) const
+  {
+    const Vec3 common = common_direction(members, orbits_, walls_);
     return std::ranges::all_of(members, [&](LocalIndex v) {
-      const auto first =
-          std::ranges::find(members, image_of(v), [&](LocalIndex one) { return image_of(one); });
-      const bool is_copied =
-          std::ranges::count(members, image_of(v), [&](LocalIndex one) { return image_of(one); })
-          > 1;
-      return is_on_wall(v) && !is_end_[at(v)] && vertex(v).column != Vec3{}
-             && (!is_copied || (is_beside_split_[at(v)] && go_one_way(v, *first)));
+      const Affine& there = orbits_.images[at(image_of(v))];
+      return dot(there.turned(common), vertex(v).column) > 0.0;
     });
   }
 
@@ -151,7 +160,9 @@ class ColumnJoiner {
   void leave_out(std::span<const LocalIndex> members)
   {
     for (const LocalIndex v : members) {
-      if (is_on_wall(v)) vertex(v).column = Vec3{};
+      if (!is_on_wall(v)) continue;
+      vertex(v).column = Vec3{};
+      vertex(v).stack = 0;
     }
   }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/tet_children.hpp"
 
 namespace tessera::mesh {
@@ -80,6 +81,17 @@ GlobalIndex count_on_one_level(TetGrading grading)
 
 }  // namespace
 
+Vec3 rank_position(const CoarseMesh& coarse, LocalIndex v)
+{
+  return coarse.layers.are_none() ? coarse.position(v) : coarse.layers.wall(v);
+}
+
+std::array<Vec3, 2> rank_positions(const RefinedLattice& lattice, LocalIndex e)
+{
+  const RefinedLattice& ranked = lattice.walls == nullptr ? lattice : *lattice.walls;
+  return {ranked.edge_point(e, 0), ranked.edge_point(e, ranked.edge_intervals(e))};
+}
+
 EdgeRank edge_rank(std::array<LocalIndex, 2> v, std::array<Vec3, 2> xyz)
 {
   if (v[1] < v[0]) {
@@ -90,7 +102,7 @@ EdgeRank edge_rank(std::array<LocalIndex, 2> v, std::array<Vec3, 2> xyz)
   return {dot(edge, edge), v};
 }
 
-TetGrading TetGrading::of(const std::array<Vec3, 4>& corners,
+TetGrading TetGrading::of(const std::array<Vec3, 4>& corners, const std::array<Vec3, 4>& ranked,
                           const std::array<LocalIndex, 4>& vertices,
                           const std::array<int, 6>& levels)
 {
@@ -101,7 +113,7 @@ TetGrading TetGrading::of(const std::array<Vec3, 4>& corners,
     if (levels[e] > grading.level) grading.finer |= 1U << e;
   }
   if (grading.is_uniform()) return grading;
-  grading.order = order_of_edges(corners, vertices);
+  grading.order = order_of_edges(ranked, vertices);
   grading.finer_supports_ = finer_supports(grading.finer);
   return grading;
 }
@@ -114,9 +126,13 @@ TetGrading tet_grading(const CoarseMesh& coarse, const EdgeLevels& levels, Local
     const auto [a, b] = kTetEdgeCorners[e];
     of_edges[e] = levels.of(v[a], v[b]);
   }
-  return TetGrading::of(
-      {coarse.position(v[0]), coarse.position(v[1]), coarse.position(v[2]), coarse.position(v[3])},
-      {v[0], v[1], v[2], v[3]}, of_edges);
+  std::array<Vec3, 4> corners{};
+  std::array<Vec3, 4> ranked{};
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    corners[c] = coarse.position(v[c]);
+    ranked[c] = rank_position(coarse, v[c]);
+  }
+  return TetGrading::of(corners, ranked, {v[0], v[1], v[2], v[3]}, of_edges);
 }
 
 // A finer face alone: each of its n^2 triangles makes four tets of one, and each of its n (n-1)/2

@@ -45,14 +45,18 @@ TetGrading tet_grading(const TetComplex& complex, const RefinedLattice& lattice,
   const LocalIndex* v = &complex.tet_vertices[4 * static_cast<std::size_t>(tet)];
   std::array<int, 6> levels{};
   std::array<Vec3, 4> corners{};
+  std::array<Vec3, 4> ranked{};
   for (std::size_t e = 0; e < edges.size(); ++e) {
     levels[e] = lattice.levels().edge(edges[e]);
     auto [from, to] = kTetEdgeCorners[e];
     if (v[to] < v[from]) std::swap(from, to);
     corners[from] = lattice.edge_point(edges[e], 0);
     corners[to] = lattice.edge_point(edges[e], lattice.edge_intervals(edges[e]));
+    const auto [first, last] = rank_positions(lattice, edges[e]);
+    ranked[from] = first;
+    ranked[to] = last;
   }
-  return TetGrading::of(corners, {v[0], v[1], v[2], v[3]}, levels);
+  return TetGrading::of(corners, ranked, {v[0], v[1], v[2], v[3]}, levels);
 }
 
 TetPoints::TetPoints(const TetComplex& complex, const RefinedLattice& lattice, LocalIndex tet)

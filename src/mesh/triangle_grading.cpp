@@ -26,8 +26,7 @@ TriangleGrading triangle_grading(const Complex& complex, const RefinedLattice& l
   for (std::size_t side = 0; side < levels.size(); ++side) {
     const LocalIndex e = complex.triangle_edges[3 * at(t) + side];
     const LocalIndex* v = &complex.edge_vertices[2 * at(e)];
-    ranks[side] = edge_rank(
-        {v[0], v[1]}, {lattice.edge_point(e, 0), lattice.edge_point(e, lattice.edge_intervals(e))});
+    ranks[side] = edge_rank({v[0], v[1]}, rank_positions(lattice, e));
     levels[side] = lattice.levels().edge(e);
   }
   return TriangleGrading::of(ranks, levels);
@@ -42,7 +41,7 @@ TriangleGrading triangle_grading(const Skeleton& skeleton, const CoarseMesh& coa
     const LocalIndex e = skeleton.triangle_edges[3 * at(t) + side];
     const LocalIndex a = skeleton.vertex_coarse[at(skeleton.edge_vertices[2 * at(e)])];
     const LocalIndex b = skeleton.vertex_coarse[at(skeleton.edge_vertices[2 * at(e) + 1])];
-    ranks[side] = edge_rank({a, b}, {coarse.position(a), coarse.position(b)});
+    ranks[side] = edge_rank({a, b}, {rank_position(coarse, a), rank_position(coarse, b)});
     levels[side] = of_skeleton.edge(e);
   }
   return TriangleGrading::of(ranks, levels);

@@ -272,6 +272,7 @@ class SeveralEntries(LayersTest):
         out = self.mesh(case, "out", ranks=2)
         figures = self.checked(out)
         self.assertEqual(figures["layers"]["count"], 6)
+        self.assertGreater(len(figures["coarse"]["edges_by_level"]), 1)
         self.assertAlmostEqual(figures["volume"], 1.0, places=9)
 
     def test_are_prisms_in_other_formats(self):

@@ -49,12 +49,13 @@ struct LayerCover {
 /// get thinner where there is no room. Between steps the tets are made better. A mesh of positive
 /// tets cannot cut itself, so neither can the layers.
 ///
-/// The result depends on the arguments alone. Periodic sides stay images of each other.
+/// The result depends on the arguments alone. Periodic sides stay images of each other, and sides
+/// of a split without layers stay at the same places.
 /// @cite badoiu2008  The direction that sees all triangles around a vertex best.
 /// @param[in] keep_tets  Tets stay who they are: none is flipped or merged.
 /// @pre mesh::validate() accepts the mesh; it has no layers. @post mesh::validate() accepts it.
-/// @throws ConfigError if an entry fits no patch, several fit one, a patch lies between two
-/// materials or on a periodic side, or the layers are thicker than the model.
+/// @throws ConfigError if an entry fits no patch, or none but such as lie between two materials or
+/// are periodic sides, if several fit one, or if the layers are thicker than the model.
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> options,
                                      const model::Model& model, bool keep_tets);

@@ -14,6 +14,9 @@
 
 namespace tessera::mesh {
 
+/// @brief See refined_lattice.hpp.
+class RefinedLattice;
+
 /// @brief A coarse edge as its place in the order of all edges shows it. Every process that knows
 /// the edge finds the same bits.
 struct EdgeRank {
@@ -27,6 +30,14 @@ struct EdgeRank {
     return a.vertices < b.vertices;
   }
 };
+
+/// @brief Where edges are ranked that end at a coarse vertex: its position, or with layers the end
+/// of its column. For there the sides of a split are at the same places. Local.
+[[nodiscard]] Vec3 rank_position(const CoarseMesh& coarse, LocalIndex v);
+
+/// @brief The same of the ends of an edge of a complex. Local.
+/// @param[in] lattice Of the complex.
+[[nodiscard]] std::array<Vec3, 2> rank_positions(const RefinedLattice& lattice, LocalIndex e);
 
 /// @brief The rank of an edge between vertices `v`, in any order, at the positions `xyz`.
 [[nodiscard]] EdgeRank edge_rank(std::array<LocalIndex, 2> v, std::array<Vec3, 2> xyz);
@@ -51,9 +62,11 @@ struct TetGrading {
     return (finer_supports_ >> corners & 1U) != 0;
   }
 
-  /// @param[in] corners Positions. @param[in] vertices In an order that is the same for all tets.
+  /// @param[in] corners Positions. @param[in] ranked Where edges are ranked: rank_position().
+  /// @param[in] vertices In an order that is the same for all tets.
   /// @param[in] levels Of the edges, in the order of kTetEdgeCorners; they differ by one at most.
   [[nodiscard]] static TetGrading of(const std::array<Vec3, 4>& corners,
+                                     const std::array<Vec3, 4>& ranked,
                                      const std::array<LocalIndex, 4>& vertices,
                                      const std::array<int, 6>& levels);
 

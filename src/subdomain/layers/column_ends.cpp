@@ -58,8 +58,8 @@ std::span<const LayerEnd> ColumnEnds::at_point(LocalIndex index)
   return ends_;
 }
 
-// The column is about the mean of those of the corners. To that the layer ends at the mean height,
-// and the rest is what corners with another height lean to their sides.
+// On a column that is the mean of those of the corners, the layer ends at their mean height, by
+// length. It ends aside of it where corners with other heights have other directions.
 LayerEnd ColumnEnds::mixed_end(const std::array<double, 3>& weight, LocalIndex layer) const
 {
   const auto part_of_height = [&](const Corner& corner) {

@@ -25,8 +25,7 @@ struct LayerEnd {
 class ColumnEnds {
  public:
   /// @param[in] coarse Borrowed. @param[in] intervals Of the host, if it is an edge or a triangle.
-  /// @pre A column of a coarse vertex of the host has a length; the host is a vertex, an edge or a
-  /// triangle.
+  /// @pre The host is a vertex, an edge or a triangle; one of its coarse vertices has a column.
   ColumnEnds(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton, mesh::HostKind kind,
              LocalIndex row, LocalIndex intervals);
 

@@ -172,23 +172,39 @@ TEST(GrowLayers, KeepTheSidesOfASplitTogether)
     if (x > 1.5) closed.face_patch[at(f)] = 7;
   }
   topology::split_patches(closed, {.patches = {{closed.patch_names[6]}}});
-  const std::string name = closed.patch_names[floor];
+  const LayerOptions thin{.patch = "floor_2", .first = 0.03, .count = 1};
   for (const auto& walls :
-       {std::vector{two_layers(name), two_layers("floor_2")}, std::vector{two_layers("floor_2")}}) {
+       {std::vector{two_layers(closed.patch_names[floor]), thin}, std::vector{thin}}) {
     mesh::CoarseMesh cube = closed;
     (void)grow_layers(cube, walls, kModel, true);
     LocalIndex num_copies = 0;
     LocalIndex num_moved = 0;
     for (LocalIndex v = 1; v < cube.num_vertices(); ++v) {
       if (closed.position(v) != closed.position(v - 1)) continue;
-      EXPECT_EQ(cube.position(v), cube.position(v - 1));
-      if (cube.position(v) != closed.position(v)) ++num_moved;
       ++num_copies;
+      EXPECT_EQ(cube.position(v), cube.position(v - 1));
+      if (cube.position(v) == closed.position(v)) continue;
+      ++num_moved;
+      EXPECT_NEAR(cube.position(v)[2], 0.03, 1e-12);
+      EXPECT_EQ(cube.layers.vertex_stack[at(v)], cube.layers.vertex_stack[at(v - 1)]);
+      EXPECT_EQ(cube.layers.num_layers(cube.layers.vertex_stack[at(v)]), 1);
     }
     EXPECT_EQ(num_copies, 25);
     // But for its two ends, where no curve leads along the sides of the cube.
     EXPECT_EQ(num_moved, walls.size() == 2 ? 3 : 0);
   }
+}
+
+// One name for a patch on the outside and one inside: only the first one can be a wall.
+TEST(GrowLayers, LeaveOutWhatLiesInsideOfAPatchOfTheirName)
+{
+  mesh::CoarseMesh cube = testing::two_material_cube(2);
+  cube.patch_names[6] = cube.patch_names[0];
+  const LayerCover cover =
+      grow_layers(cube, std::vector{two_layers(cube.patch_names[0])}, kModel, true);
+  EXPECT_EQ(cover.patches.size(), 1U);
+  EXPECT_TRUE(cube.layers.is_wall(0));
+  EXPECT_FALSE(cube.layers.is_wall(6));
 }
 
 TEST(GrowLayers, RefusesWhatItCannotDo)

@@ -32,7 +32,7 @@ TetGrading grading_of(int level, unsigned finer, const TetEdgeOrder& order = {0,
     levels[e] = level + static_cast<int>(finer >> e & 1U);
   }
   const std::array<Vec3, 4> corners{Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  TetGrading grading = TetGrading::of(corners, {0, 1, 2, 3}, levels);
+  TetGrading grading = TetGrading::of(corners, corners, {0, 1, 2, 3}, levels);
   grading.order = order;
   grading.diagonal = diagonal;
   return grading;
@@ -212,12 +212,12 @@ TEST(GradedChildren, FillTheTetAndShowWhatEachFaceAsksFor)
 TEST(TetGrading, TakesTheSmallestLevelAndTheLongestEdgeFirst)
 {
   const std::array<Vec3, 4> corners{Vec3{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
-  const TetGrading grading = TetGrading::of(corners, {0, 1, 2, 3}, {3, 4, 3, 3, 4, 3});
+  const TetGrading grading = TetGrading::of(corners, corners, {0, 1, 2, 3}, {3, 4, 3, 3, 4, 3});
   EXPECT_EQ(grading.level, 3);
   EXPECT_EQ(grading.finer, 0b010010U);
   EXPECT_EQ(grading.order, (TetEdgeOrder{5, 4, 2, 3, 1, 0}));  // 1, 4, 9, 5, 10, 13.
-  EXPECT_TRUE(TetGrading::of(corners, {0, 1, 2, 3}, {4, 4, 4, 4, 4, 4}).is_uniform());
-  EXPECT_EQ(TetGrading::of(corners, {0, 1, 2, 3}, {4, 4, 4, 4, 4, 4}).level, 4);
+  EXPECT_TRUE(TetGrading::of(corners, corners, {0, 1, 2, 3}, {4, 4, 4, 4, 4, 4}).is_uniform());
+  EXPECT_EQ(TetGrading::of(corners, corners, {0, 1, 2, 3}, {4, 4, 4, 4, 4, 4}).level, 4);
 }
 
 // All lengths of a regular tet are the same: the vertices decide, wherever they stand in the tet.
@@ -227,7 +227,7 @@ TEST(TetGrading, TiesAreBrokenByTheVertices)
   std::array<LocalIndex, 4> vertices{3, 7, 11, 20};
   int num_turns = 0;
   do {
-    const TetGrading grading = TetGrading::of(places, vertices, {0, 1, 1, 1, 1, 0});
+    const TetGrading grading = TetGrading::of(places, places, vertices, {0, 1, 1, 1, 1, 0});
     std::map<std::tuple<LocalIndex, LocalIndex>, std::uint8_t> place_of_edge;
     for (std::size_t e = 0; e < 6; ++e) {
       const auto [a, b] = kTetEdgeCorners[e];

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "subdomain/layers/column_ends.hpp"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "tessera/layers/grow_layers.hpp"
+#include "tessera/mesh/lattice.hpp"
 
 #include "support/bodies.hpp"
 #include "support/decompositions.hpp"
@@ -74,6 +79,34 @@ TEST_F(ColumnEndsTest, AreInterpolatedBetweenCoarseVertices)
     }
   }
   EXPECT_GT(num_alike, 10);
+  EXPECT_GT(num_mixed, 3);
+}
+
+TEST_F(ColumnEndsTest, AreInterpolatedOnTriangles)
+{
+  int num_mixed = 0;
+  for (LocalIndex t = 0; t < body_.skeleton.num_triangles(); ++t) {
+    if (!coarse_.layers.is_wall(body_.skeleton.triangle_patch[at(t)])) continue;
+    std::array<LocalIndex, 3> v{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      v[c] = body_.skeleton.vertex_coarse[at(body_.skeleton.triangle_vertices[3 * at(t) + c])];
+    }
+    if (std::ranges::count(v, stack(v[0]), [&](LocalIndex one) { return stack(one); }) == 3)
+      continue;
+    ++num_mixed;
+    ColumnEnds ends(body_.coarse, body_.skeleton, mesh::HostKind::triangle, t, kIntervals);
+    for (const auto& [i, j] : {std::pair(1, 1), std::pair(2, 1), std::pair(1, 2)}) {
+      const auto found = ends.at_point(mesh::lattice::inner_triangle_index(kIntervals, i, j));
+      const std::array<double, 3> weight{(kIntervals - i - j) / 4.0, i / 4.0, j / 4.0};
+      Vec3 here{};
+      Vec3 wanted{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        here = here + weight[c] * column(v[c]);
+        wanted = wanted + weight[c] * end_of(v[c], 0);
+      }
+      EXPECT_LT(norm((1.0 - found[0].part) * here + found[0].aside - wanted), 1e-15);
+    }
+  }
   EXPECT_GT(num_mixed, 3);
 }
 
