@@ -162,8 +162,8 @@ void run_coarse_stages(const StageList& stages, RunResult& run, RunContext& cont
   if (contains(stages, Stage::layers)) take(run_layer_stage(resolved, mesh, context), run);
   choose_levels(stages, run, context);
   if (!is_fine_enough) run.coarse.missed_size = longest_edge_in_sizes(run, context);
-  mesh.patch_names = mesh::final_patch_names(
-      mesh);  // Until then sizes and layers know the sides of a split by the name of the patch.
+  // Until here sizes and layers know both sides of a split by the name of the patch.
+  mesh.patch_names = mesh::final_patch_names(mesh);
   run.decomposition = run_decompose_stage(run, context);
 }
 
