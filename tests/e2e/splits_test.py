@@ -130,13 +130,13 @@ class Baffle(SplitsTest):
     def test_stays_alike_where_one_side_has_layers_and_edges_have_levels(self):
         more = (
             "size.target = 0.2\n[[size.region]]\nsize = 0.05\nball = { centre = [0.5, 0, 0.4], radius = 0.2 }\n"
-            "[[layer]]\npatch = 'crack_plus'\nfirst = 0.01\ncount = 3\n")
+            "[[layer]]\npatch = 'crack_plus'\nfirst = 0.04\ncount = 3\n")
         case = self.case("baffle", more=more)
         case.write_text(case.read_text().replace("refine.levels = 1\n", "").replace("coarse.max_size = 0.4\n", ""))
         out = self.mesh(case, "out", ranks=2)
         report = self.checked(out)
         self.assertGreater(len(report["coarse"]["edges_by_level"]), 1)
-        self.assertGreater(report["layers"]["full_height"], 0.99)
+        self.assertGreater(report["layers"]["full_height"], 0.8)
         self.assert_both_sides_alike(out)
 
 

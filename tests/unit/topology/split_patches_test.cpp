@@ -11,8 +11,10 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/coarse_edges.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/mesh/tet_topology.hpp"
+#include "tessera/mesh/triangle_grading.hpp"
 #include "tessera/refine/choose_levels.hpp"
 
 #include "support/decompositions.hpp"
@@ -180,6 +182,39 @@ TEST(SplitPatches, GetTheSameLevelsOnBothSides)
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0], found[1]);
   }
+}
+
+// A triangle is cut by the order of its sides. Where one side of a crack has layers, its tets end
+// at other places than those of the other side.
+TEST(SplitPatches, HasEdgesInOneOrderWhereTetsHaveMoved)
+{
+  mesh::CoarseMesh cube = cube_with_crack(4, [](const Vec3&) { return true; });
+  open(cube);
+  cube.layers = {.wall_xyz = cube.vertex_xyz, .most_layers = 1};
+  cube.layers.vertex_stack.assign(at(cube.num_vertices()), 0);
+  cube.layers.patch_is_wall.assign(at(cube.num_patches()), 0);
+  cube.layers.ends.push_back(1.0);
+  for (LocalIndex t = 0; t < cube.num_tets(); ++t) {
+    if (cube.tet_material[at(t)] != 1) continue;
+    for (const LocalIndex v : cube.tet(t)) {
+      const Vec3 wall = cube.layers.wall(v);
+      if (wall[0] == 0.5) cube.vertex_xyz[3 * at(v) + 1] = 0.5 * wall[1] + 0.3 * wall[2];
+    }
+  }
+  const mesh::Skeleton skeleton =
+      mesh::build_skeleton(cube, testing::one_subdomain_a_material(cube));
+  const mesh::LatticeLevels levels = mesh::lattice_levels(skeleton, 1);
+  const auto order = [&](LocalIndex t) {
+    return mesh::triangle_grading(skeleton, cube, levels, t).order;
+  };
+  int num_pairs = 0;
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    const LocalIndex base = skeleton.orbits.triangles.base_of(t);
+    if (base == t) continue;
+    ++num_pairs;
+    EXPECT_EQ(order(t), order(base));
+  }
+  EXPECT_EQ(num_pairs, 32);
 }
 
 // What holds a point back on one side of a crack does so on the other one.
