@@ -126,7 +126,6 @@ class Baffle(SplitsTest):
         self.run_program("repartition", out / "mesh.pvtu", "--parts", 3, "--output", parts, ranks=2)
         self.assertEqual(self.run_program("check", parts / "mesh.pvtu", ranks=2).code, OK)
 
-
     def test_stays_alike_where_one_side_has_layers_and_edges_have_levels(self):
         more = (
             "size.target = 0.2\n[[size.region]]\nsize = 0.05\nball = { centre = [0.5, 0, 0.4], radius = 0.2 }\n"

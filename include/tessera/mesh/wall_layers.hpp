@@ -26,8 +26,8 @@ struct WallLayers {
   /// vertex itself where there is no column. Output length unit.
   FlatArray<double> wall_xyz{};
   FlatArray<char> patch_is_wall{};       ///< Shape (num_patches).
-  FlatArray<LocalIndex> vertex_stack{};  ///< Shape (num_vertices): what its column has; 0 where
-                                         ///< there is none.
+  FlatArray<LocalIndex> vertex_stack{};  ///< Shape (num_vertices): that of its column, if it has
+                                         ///< one.
   LocalIndex most_layers = 0;            ///< Of all stacks.
   /// Shape (num_stacks, most_layers): where the layers end, as parts of a column. The tets are at
   /// 0, as are the layers that are missing; else ascending; the last one is 1, the wall.
