@@ -199,6 +199,7 @@ class MeshWorker final : public jobs::Worker {
   {
     LayeredMesh made{.mesh = request.mesh};
     made.cover = layers::grow_layers(made.mesh, request.layers, *scaled_model_, request.keep_tets);
+    topology::close_joints(made.mesh);
     return to_bytes(made);
   }
 

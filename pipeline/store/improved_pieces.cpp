@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -251,6 +252,26 @@ std::vector<subdomain::VertexPlace> ImprovedPieces::places_of(const mesh::Piece&
     if (place.owner != kNoIndex) continue;
     throw MeshError(fmt::format("nobody owns vertex {} of piece {}", v, piece.subdomain));
   }
+  return places;
+}
+
+std::vector<subdomain::VertexPlace> ImprovedPieces::places_of_names(
+    std::span<const mesh::HostPoint> names) const
+{
+  std::map<LocalIndex, std::vector<mesh::HostPoint>> owned;  // By subdomain, of those asked.
+  const auto find_place = [&](const mesh::HostPoint& name) -> subdomain::VertexPlace {
+    for (const LocalIndex holder : regions_->holders_of(name.host)) {
+      auto list = owned.find(holder);
+      if (list == owned.end()) list = owned.emplace(holder, owned_by(holder)).first;
+      const auto found = std::ranges::lower_bound(list->second, name);
+      if (found == list->second.end() || *found != name) continue;
+      return {holder, static_cast<LocalIndex>(found - list->second.begin())};
+    }
+    throw MeshError(fmt::format("nobody owns vertex {} of host {}", name.index, name.host));
+  };
+  std::vector<subdomain::VertexPlace> places;
+  places.reserve(names.size());
+  for (const mesh::HostPoint& name : names) places.push_back(find_place(name));
   return places;
 }
 

@@ -96,6 +96,10 @@ class ImprovedPieces {
   /// @brief Owner of each vertex of a piece: shape (num_vertices).
   [[nodiscard]] std::vector<subdomain::VertexPlace> places_of(const mesh::Piece& piece) const;
 
+  /// @brief The same of vertices of the skeleton, whatever pieces have them.
+  [[nodiscard]] std::vector<subdomain::VertexPlace> places_of_names(
+      std::span<const mesh::HostPoint> names) const;
+
   [[nodiscard]] SeamRecords& records() { return records_; }
 
  private:

@@ -45,4 +45,19 @@ std::vector<bool> matching_names(std::string_view kind, const std::string& patte
                                 kind, nearest_first(pattern, names)));
 }
 
+std::vector<LocalIndex> matching_solids(const std::string& pattern,
+                                        std::span<const std::string> names)
+{
+  std::vector<LocalIndex> solids;
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    const std::string number = std::to_string(m + 1);
+    if (matches_pattern(pattern, number) || matches_pattern(pattern, names[m])) {
+      solids.push_back(static_cast<LocalIndex>(m) + 1);
+    }
+  }
+  if (!solids.empty()) return solids;
+  throw ConfigError(fmt::format("no solid is or fits \"{}\"; there are {}, numbered from 1 to {}",
+                                pattern, nearest_first(pattern, names), names.size()));
+}
+
 }  // namespace tessera

@@ -263,10 +263,20 @@ constexpr Key kLayerKeys[] = {
      .meaning =
          "The patches of that name, or whose names match it: * stands for any characters, ? "
          "for one, [ab] for one of these. A patch that is split has layers on both sides, or "
-         "on one by the name of that side. Other patches inside of the model and sides of "
-         "[[periodic]] are left out. No patch may fit two entries.",
+         "on one by the name of that side. A patch between two solids has them on the side that "
+         "side names. Other patches inside of the model and sides of [[periodic]] are left out. "
+         "No patch may fit two entries, and no side of one.",
      .reason = "layers are on walls, and only the user knows which patches these are",
      .example = "\"wall*\""},
+    {.name = "layer.side",
+     .rule = TextRule{[](Case& c) -> std::string& { return c.layers.back().side; }},
+     .meaning = "The solid that has the layers: its number in the list of tessera info MODEL, or "
+                "its name in the file. Or several, whose numbers or names match. Then patches "
+                "between it and other solids have layers, too.",
+     .reason = "outside there is one side only",
+     .derived_default = "any, and none at patches between two solids",
+     .example = "\"fluid\"",
+     .is_optional = true},
     {.name = "layer.first",
      .rule = RealRule{[](Case& c) -> double& { return c.layers.back().first; }, 0.0,
                       Bound::exclusive, kHuge, Bound::inclusive},

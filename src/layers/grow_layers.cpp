@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -24,71 +25,99 @@ namespace {
 constexpr int kSteps = 6;
 constexpr int kMoreSteps = 3;
 
-constexpr const char* kPeriodicObstacle =
-    "on a side of [[periodic]]; layers end there, and go on from its partner";
-
 constexpr double kCovered = 0.1;
 constexpr double kFull = 0.9;
 
-// Why a patch can be no wall; empty for one that can.
-std::vector<std::string> obstacles_of_patches(const mesh::CoarseMesh& mesh)
-{
-  std::vector<std::string> obstacles(at(mesh.num_patches()));
-  const std::vector<mesh::TriangleTets> faces = mesh::tets_of_faces(mesh);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (faces[f].tets[1] == kNoIndex) continue;
-    obstacles[at(mesh.face_patch[f])] =
-        "inside of the model; layers are for its outside and for the sides of a [[split]]";
+// Which patches of a mesh can be walls.
+class WallChoice {
+ public:
+  explicit WallChoice(const mesh::CoarseMesh& mesh)
+      : mesh_(mesh),
+        final_names_(mesh::final_patch_names(mesh)),
+        bodies_(mesh::body_names(mesh)),
+        bodies_behind_(at(mesh.num_patches())),
+        obstacles_(at(mesh.num_patches()))
+  {
+    const std::vector<mesh::TriangleTets> faces = mesh::tets_of_faces(mesh);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const auto patch = at(mesh.face_patch[f]);
+      if (faces[f].tets[1] != kNoIndex) obstacles_[patch] = kInnerObstacle;
+      bodies_behind_[patch].insert(mesh.body(mesh.tet_material[at(faces[f].tets[0])]));
+    }
+    for (LocalIndex p = 0; p < static_cast<LocalIndex>(mesh.images.patch_origin.size()); ++p) {
+      const LocalIndex origin = mesh.images.patch_origin[at(p)];
+      if (origin == kNoIndex || mesh.images.patch_transform[at(p)] == 0) continue;
+      obstacles_[at(p)] = obstacles_[at(origin)] = kPeriodicObstacle;
+    }
   }
-  for (LocalIndex p = 0; p < static_cast<LocalIndex>(mesh.images.patch_origin.size()); ++p) {
-    const LocalIndex origin = mesh.images.patch_origin[at(p)];
-    if (origin == kNoIndex || mesh.images.is_of_split(p)) continue;
-    obstacles[at(p)] = obstacles[at(origin)] = kPeriodicObstacle;
-  }
-  return obstacles;
-}
 
-// A split patch by its own name, or one of its sides by that of the side.
-std::vector<bool> patches_that_fit(const std::string& pattern, const mesh::CoarseMesh& mesh)
-{
-  const std::vector<std::string> names = mesh::final_patch_names(mesh);
-  std::vector<bool> fits(names.size());
-  for (std::size_t p = 0; p < fits.size(); ++p) {
-    fits[p] = matches_pattern(pattern, mesh.patch_names[p]) || matches_pattern(pattern, names[p]);
+  // The patches that an entry fits. Those that can be no wall are left out; it is an error if
+  // nothing is left.
+  [[nodiscard]] std::vector<bool> walls_of(const LayerOptions& entry) const
+  {
+    std::vector<bool> fits = patches_that_fit(entry);
+    std::string obstacle;
+    for (std::size_t p = 0; p < fits.size(); ++p) {
+      const std::string found = fits[p] ? obstacle_of(static_cast<LocalIndex>(p), entry) : "";
+      if (found.empty()) continue;
+      fits[p] = false;
+      if (mesh_.patch_names[p] == entry.patch) obstacle = found;
+    }
+    if (std::ranges::count(fits, true) > 0) return fits;
+    if (!obstacle.empty()) {
+      throw ConfigError(fmt::format("patch \"{}\" lies {}", entry.patch, obstacle));
+    }
+    throw ConfigError(
+        fmt::format("no patch that \"{}\" fits can have layers{}: these are for the outside of the "
+                    "model but sides of [[periodic]], for the sides of a [[split]], and, with "
+                    "side = for one of them, for patches between two solids",
+                    entry.patch, entry.side.empty() ? "" : " in \"" + entry.side + "\""));
   }
-  return std::ranges::count(fits, true) > 0 ? fits : matching_names("patch", pattern, names);
-}
 
-// The patches that an entry fits. Those that can be no wall are left out; it is an error if nothing
-// is left.
-std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& mesh,
-                           const std::vector<std::string>& obstacles)
-{
-  std::vector<bool> fits = patches_that_fit(entry.patch, mesh);
-  std::string obstacle;
-  for (std::size_t p = 0; p < fits.size(); ++p) {
-    if (!fits[p] || obstacles[p].empty()) continue;
-    fits[p] = false;
-    if (mesh.patch_names[p] == entry.patch) obstacle = obstacles[p];
+ private:
+  static constexpr const char* kInnerObstacle =
+      "inside of the model; layers there are for the sides of a [[split]], and between two solids "
+      "for the one that side = names";
+  static constexpr const char* kPeriodicObstacle =
+      "on a side of [[periodic]]; layers end there, and go on from its partner";
+
+  // A split patch by its own name, or one of its sides by that of the side.
+  [[nodiscard]] std::vector<bool> patches_that_fit(const LayerOptions& entry) const
+  {
+    std::vector<bool> fits(final_names_.size());
+    for (std::size_t p = 0; p < fits.size(); ++p) {
+      fits[p] = matches_pattern(entry.patch, mesh_.patch_names[p])
+                || matches_pattern(entry.patch, final_names_[p]);
+    }
+    return std::ranges::count(fits, true) > 0 ? fits
+                                              : matching_names("patch", entry.patch, final_names_);
   }
-  if (std::ranges::count(fits, true) > 0) return fits;
-  if (!obstacle.empty()) {
-    throw ConfigError(fmt::format("patch \"{}\" lies {}", entry.patch, obstacle));
+
+  // Empty: there is none.
+  [[nodiscard]] std::string obstacle_of(LocalIndex patch, const LayerOptions& entry) const
+  {
+    if (!obstacles_[at(patch)].empty()) return obstacles_[at(patch)];
+    if (entry.side.empty()) return mesh_.images.is_joint(patch) ? kInnerObstacle : "";
+    const std::vector<LocalIndex> solids = matching_solids(entry.side, bodies_);
+    if (std::ranges::includes(solids, bodies_behind_[at(patch)])) return "";
+    return fmt::format("not on the side of \"{}\" alone", entry.side);
   }
-  throw ConfigError(fmt::format(
-      "all patches that \"{}\" fits lie inside of the model or on sides of [[periodic]]; layers "
-      "are for the rest of its outside, and for the sides of a [[split]]",
-      entry.patch));
-}
+
+  const mesh::CoarseMesh& mesh_;
+  std::vector<std::string> final_names_;
+  std::vector<std::string> bodies_;
+  std::vector<std::set<LocalIndex>> bodies_behind_;  // Of each patch.
+  std::vector<std::string> obstacles_;               // Of each patch; empty: it can be a wall.
+};
 
 // Which entry each patch has, or kNoIndex.
 std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
                                            std::span<const LayerOptions> options)
 {
-  const std::vector<std::string> obstacles = obstacles_of_patches(mesh);
+  const WallChoice choice(mesh);
   std::vector<LocalIndex> entries(at(mesh.num_patches()), kNoIndex);
   for (std::size_t i = 0; i < options.size(); ++i) {
-    const std::vector<bool> walls = walls_of(options[i], mesh, obstacles);
+    const std::vector<bool> walls = choice.walls_of(options[i]);
     for (std::size_t p = 0; p < walls.size(); ++p) {
       if (!walls[p]) continue;
       if (entries[p] != kNoIndex) {

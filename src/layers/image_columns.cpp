@@ -16,7 +16,7 @@ std::vector<bool> ends_of_unlike_edges(const mesh::CoarseMesh& mesh,
                                        const std::set<WallEdge>& on_walls)
 {
   std::vector<bool> is_end(at(mesh.num_vertices()), false);
-  for (const mesh::ImageEdge& edge : mesh::image_edges(mesh)) {
+  for (const mesh::ImageEdge& edge : mesh::image_edges(mesh, mesh::ImageKind::without_joints)) {
     if (on_walls.contains(edge.from) == on_walls.contains(edge.to)) continue;
     for (std::size_t end = 0; end < 2; ++end) {
       is_end[at(edge.from[end])] = true;
@@ -71,7 +71,7 @@ class ColumnJoiner {
   ColumnJoiner(const mesh::CoarseMesh& mesh, const std::set<WallEdge>& on_walls, WallSurface& walls)
       : mesh_(mesh),
         walls_(walls),
-        orbits_(mesh::find_vertex_orbits(mesh)),
+        orbits_(mesh::find_vertex_orbits(mesh, mesh::ImageKind::without_joints)),
         is_end_(ends_of_unlike_edges(mesh, on_walls)),
         is_beside_split_(vertices_beside_splits(mesh, walls))
   {
@@ -80,6 +80,7 @@ class ColumnJoiner {
 
   void run()
   {
+    hold_sides_of_joints();
     const IndexLists members_of = rows_by_key(orbits_.vertices.base, mesh_.num_vertices());
     for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
       const auto members = members_of[base];
@@ -93,6 +94,15 @@ class ColumnJoiner {
   }
 
  private:
+  // Where a joint has no layers, it is what those of its other side end at.
+  void hold_sides_of_joints()
+  {
+    for (const SurfaceTriangle& triangle : walls_.triangles) {
+      if (triangle.is_wall || !mesh_.images.is_joint(mesh_.face_patch[at(triangle.face)])) continue;
+      leave_out(triangle.vertices);
+    }
+  }
+
   [[nodiscard]] bool is_on_wall(LocalIndex v) const
   {
     return walls_.wall_of_vertex[at(v)] != kNoIndex;

@@ -64,7 +64,8 @@ void validate_images(const CoarseMesh& mesh)
   const SideImages& images = mesh.images;
   if (images.are_none()) return;
   require(images.patch_origin.size() == mesh.patch_names.size()
-              && images.patch_transform.size() == mesh.patch_names.size(),
+              && images.patch_transform.size() == mesh.patch_names.size()
+              && images.patch_is_joint.size() == mesh.patch_names.size(),
           "images have a wrong number of patches");
   require(images.face_origin.size() == mesh.face_patch.size(),
           "images have a wrong number of faces");

@@ -5,17 +5,21 @@
 
 namespace tessera::mesh {
 
-std::vector<ImageEdge> image_edges(const CoarseMesh& mesh)
+std::vector<ImageEdge> image_edges(const CoarseMesh& mesh, ImageKind kind)
 {
   const SideImages& sides = mesh.images;
   const auto corners_of = [&](LocalIndex face) {
     const LocalIndex* v = &mesh.face_vertices[3 * at(face)];
     return sorted_triangle(v[0], v[1], v[2]);
   };
+  const auto is_meant = [&](LocalIndex face) {
+    if (kind == ImageKind::all) return true;
+    return sides.is_joint(mesh.face_patch[at(face)]) == (kind == ImageKind::joints);
+  };
   constexpr std::array<std::array<std::size_t, 2>, 3> kSides{{{0, 1}, {0, 2}, {1, 2}}};
   std::vector<ImageEdge> edges;
   for (LocalIndex f = 0; !sides.are_none() && f < mesh.num_faces(); ++f) {
-    if (sides.face_origin[at(f)] == kNoIndex) continue;
+    if (sides.face_origin[at(f)] == kNoIndex || !is_meant(f)) continue;
     const auto from = corners_of(sides.face_origin[at(f)]);
     const auto to = corners_of(f);
     const LocalIndex transform = sides.patch_transform[at(mesh.face_patch[at(f)])];
@@ -26,10 +30,10 @@ std::vector<ImageEdge> image_edges(const CoarseMesh& mesh)
   return edges;
 }
 
-VertexOrbits find_vertex_orbits(const CoarseMesh& mesh)
+VertexOrbits find_vertex_orbits(const CoarseMesh& mesh, ImageKind kind)
 {
   std::vector<ImageLink> links;
-  for (const ImageEdge& edge : image_edges(mesh)) {
+  for (const ImageEdge& edge : image_edges(mesh, kind)) {
     for (std::size_t end = 0; end < 2; ++end) {
       links.push_back({edge.from[end], edge.to[end], edge.transform});
     }

@@ -20,8 +20,9 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
     number::PieceCounts& piece = counts.emplace_back(
         number::PieceCounts{.interior_vertices = inside.interior_vertices, .tets = inside.tets});
     for (const LocalIndex t : cut.skeleton.triangles_of(s)) {
-      const bool is_on_geometry = cut.skeleton.triangle_patch[at(t)] != kNoIndex;
-      if (!is_on_geometry || cut.skeleton.triangle_owner(t) != s) continue;
+      const LocalIndex patch = cut.skeleton.triangle_patch[at(t)];
+      if (patch == kNoIndex || cut.skeleton.triangle_owner(t) != s) continue;
+      if (layers && layers->is_hidden(patch)) continue;
       piece.boundary_triangles += mesh::num_small_triangles(cut.skeleton, of_skeleton, t);
     }
     if (!layers) continue;

@@ -173,7 +173,9 @@ void measure_layers(const LayerTables& tables, FilledPiece& filled)
   summary.boundary_area += layered.outside_area;
   summary.layers.num_tets = layered.piece.num_tets();
   summary.layers.num_cells = std::ranges::count(layered.tet_of_prism, 0);
-  summary.layers.num_side_triangles = layered.piece.num_boundary() - filled.piece.num_boundary();
+  summary.num_boundary = std::ranges::count_if(
+      filled.piece.boundary_patch, [&](LocalIndex patch) { return !tables.is_hidden(patch); });
+  summary.layers.num_side_triangles = layered.piece.num_boundary() - summary.num_boundary;
   summary.patches = patch_areas(layered.piece);
 }
 

@@ -13,12 +13,16 @@
 namespace tessera::subdomain {
 namespace {
 
-double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
+// A joint is inside: its other side is another subdomain.
+double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton,
+                    const mesh::SideImages& images)
 {
   const std::span<const double> xyz(skin.vertex_xyz);
   double area = 0.0;
   for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
-    if (skeleton.is_inside(skin.triangle_parent[at(t)])) continue;
+    const LocalIndex parent = skin.triangle_parent[at(t)];
+    if (skeleton.is_inside(parent) || images.is_joint(skeleton.triangle_patch[at(parent)]))
+      continue;
     const LocalIndex* v = &skin.triangle_vertices[3 * at(t)];
     area += triangle_area(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]));
   }
@@ -169,7 +173,7 @@ FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& sk
   summary.num_boundary = piece.num_boundary();
   summary.patches = patch_areas(piece);
   summary.lines = line_lengths(piece);
-  summary.boundary_area = outside_area(skin, cut.skeleton);
+  summary.boundary_area = outside_area(skin, cut.skeleton, cut.coarse.images);
   summary.outside = verify::outside_hash(skin, cut.skeleton);
   summary.euler_characteristic =
       euler_characteristic(piece, measure_edges(piece, result.histograms), skin.num_triangles());
@@ -206,7 +210,7 @@ FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
   summary.num_boundary = piece.num_boundary();
   summary.patches = patch_areas(piece);
   summary.lines = line_lengths(piece);
-  summary.boundary_area = outside_area(skin, surface);
+  summary.boundary_area = outside_area(skin, surface, {});
   summary.outside = verify::outside_hash(skin, surface);
   summary.surface = verify::surface_hash(skin);
   measure_edges(piece, result.histograms);

@@ -113,10 +113,7 @@ class Joiner {
   explicit Joiner(mesh::CoarseMesh& mesh)
       : mesh_(mesh), tolerance_(kMostOffImage * box_diagonal(mesh.vertex_xyz))
   {
-    images_.transforms.push_back({});
-    images_.patch_origin.assign(at(mesh.num_patches()), kNoIndex);
-    images_.patch_transform.assign(at(mesh.num_patches()), 0);
-    images_.face_origin.assign(at(mesh.num_faces()), kNoIndex);
+    images_.begin(mesh.num_patches(), mesh.num_faces());
   }
 
   void add(const PeriodicSide& side, const Faces& from, const Faces& to)

@@ -19,51 +19,75 @@ namespace {
 
 using MaterialPairs = std::set<std::array<LocalIndex, 2>>;  // Ascending, each from 1.
 
+// Tells an error of an entry which table it is in.
+template <class Find>
+auto within(const char* table, const Find& find)
+{
+  try {
+    return find();
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}", table, error.what()));
+  }
+}
+
 std::vector<bool> chosen_patches(const std::vector<SplitPatch>& splits,
                                  const std::vector<std::string>& names)
 {
   std::vector<bool> chosen(names.size(), false);
   for (const SplitPatch& one : splits) {
-    std::vector<bool> fits;
-    try {
-      fits = matching_names("patch", one.patch, names);
-    } catch (const ConfigError& error) {
-      throw ConfigError(fmt::format("[[split]]: {}", error.what()));
-    }
+    const std::vector<bool> fits =
+        within("[[split]]", [&] { return matching_names("patch", one.patch, names); });
     for (std::size_t p = 0; p < fits.size(); ++p) chosen[p] = chosen[p] || fits[p];
   }
   return chosen;
 }
 
-std::vector<LocalIndex> materials_that_fit(const std::string& pattern,
-                                           const std::vector<std::string>& names)
-{
-  std::vector<LocalIndex> materials;
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    const std::string number = std::to_string(m + 1);
-    if (matches_pattern(pattern, number) || matches_pattern(pattern, names[m])) {
-      materials.push_back(static_cast<LocalIndex>(m) + 1);
-    }
-  }
-  if (!materials.empty()) return materials;
-  throw ConfigError(
-      fmt::format("[[geometry.contact]]: no solid is or fits \"{}\"; there are {}, numbered from 1 "
-                  "to {}",
-                  pattern, nearest_first(pattern, names), names.size()));
-}
-
 MaterialPairs chosen_materials(const std::vector<Contact>& contacts,
                                const std::vector<std::string>& names)
 {
+  const auto solids = [&](const std::string& pattern) {
+    return within("[[geometry.contact]]", [&] { return matching_solids(pattern, names); });
+  };
   MaterialPairs pairs;
   for (const Contact& contact : contacts) {
-    const std::vector<LocalIndex> others = materials_that_fit(contact.other, names);
-    for (const LocalIndex a : materials_that_fit(contact.body, names)) {
+    const std::vector<LocalIndex> others = solids(contact.other);
+    for (const LocalIndex a : solids(contact.body)) {
       for (const LocalIndex b : others) pairs.insert({std::min(a, b), std::max(a, b)});
     }
   }
   return pairs;
 }
+
+// Which joint there is on the side of a body, if a patch has it.
+class JointSides {
+ public:
+  JointSides(const mesh::CoarseMesh& mesh, const std::vector<JointSide>& joints)
+  {
+    const std::vector<std::string> bodies = mesh::body_names(mesh);
+    for (const JointSide& joint : joints) {
+      fits_.push_back(within("[[layer]]", [&] {
+        return Fits{matching_names("patch", joint.patch, mesh.patch_names),
+                    matching_solids(joint.solid, bodies)};
+      }));
+    }
+  }
+
+  [[nodiscard]] LocalIndex find(LocalIndex patch, LocalIndex body) const
+  {
+    const auto found = std::ranges::find_if(fits_, [&](const Fits& fits) {
+      return fits.patches[at(patch)] && std::ranges::binary_search(fits.solids, body);
+    });
+    return found == fits_.end() ? kNoIndex : static_cast<LocalIndex>(found - fits_.begin());
+  }
+
+ private:
+  struct Fits {
+    std::vector<bool> patches{};
+    std::vector<LocalIndex> solids{};  // Ascending.
+  };
+
+  std::vector<Fits> fits_{};
+};
 
 }  // namespace
 
@@ -86,6 +110,7 @@ void SplitFaces::find_faces(const SplitOptions& options,
 {
   const std::vector<bool> patch_is_split = chosen_patches(options.patches, mesh_.patch_names);
   const MaterialPairs contacts = chosen_materials(options.contacts, mesh::body_names(mesh_));
+  const JointSides joints(mesh_, options.joints);
   LocalIndex face = 0;
   for (const mesh::TriangleTets& triangle : mesh::tets_of_faces(mesh_, triangles)) {
     std::array<LocalIndex, 2>& tets = tets_.emplace_back(triangle.tets);
@@ -101,9 +126,19 @@ void SplitFaces::find_faces(const SplitOptions& options,
           "be split",
           mesh_.patch_names[at(patch)]));
     }
-    const bool is_contact = is_inner && body(0) != body(1) && contacts.contains({body(0), body(1)});
-    is_split_.push_back(patch_is_split[at(patch)] || is_contact);
-    if (is_split_.back()) faces_.push_back(face);
+    const bool is_between = is_inner && body(0) != body(1);
+    const bool is_contact = is_between && contacts.contains({body(0), body(1)});
+    Opening& opening = openings_.emplace_back();
+    opening.is_open = patch_is_split[at(patch)] || is_contact;
+    if (is_between && !opening.is_open) {
+      opening.joints = {joints.find(patch, body(0)), joints.find(patch, body(1))};
+      if (opening.joints[1] < opening.joints[0]) {
+        std::swap(opening.joints[0], opening.joints[1]);
+        std::swap(tets[0], tets[1]);
+      }
+      opening.is_open = opening.is_joint();
+    }
+    if (opening.is_open) faces_.push_back(face);
     ++face;
   }
 }

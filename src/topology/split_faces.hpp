@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,16 @@
 
 namespace tessera::topology {
 
+/// @brief How a face is opened. Faces of one patch that are opened alike stay one patch.
+struct Opening {
+  bool is_open = false;
+  /// Of a joint: which of SplitOptions::joints there is on either side, or kNoIndex. Ascending.
+  std::array<LocalIndex, 2> joints{kNoIndex, kNoIndex};
+
+  [[nodiscard]] bool is_joint() const { return joints[1] != kNoIndex; }
+  friend auto operator<=>(const Opening&, const Opening&) = default;
+};
+
 /// @brief The faces along which a mesh is to be opened, and what there is on both sides.
 class SplitFaces {
  public:
@@ -20,9 +31,10 @@ class SplitFaces {
   SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options);
 
   [[nodiscard]] const std::vector<LocalIndex>& faces() const { return faces_; }  ///< Ascending.
-  [[nodiscard]] bool is_split(LocalIndex face) const { return is_split_[at(face)]; }
+  [[nodiscard]] const Opening& opening(LocalIndex face) const { return openings_[at(face)]; }
+  [[nodiscard]] bool is_split(LocalIndex face) const { return opening(face).is_open; }
   /// @brief The tets of any face: first that of the body with the lower number; inside of a body,
-  /// that on the side which the face's normal points to.
+  /// that on the side which the face's normal points to. Of a joint, in the order of its opening.
   [[nodiscard]] const std::array<LocalIndex, 2>& tets(LocalIndex face) const
   {
     return tets_[at(face)];
@@ -49,7 +61,7 @@ class SplitFaces {
   void find_sides(std::span<const mesh::TriangleTets> triangles);
 
   const mesh::CoarseMesh& mesh_;
-  std::vector<bool> is_split_{};  // Shape (num_faces).
+  std::vector<Opening> openings_{};  // Shape (num_faces).
   std::vector<std::array<LocalIndex, 2>> tets_{};
   std::vector<LocalIndex> faces_{};
   std::vector<LocalIndex> side_{};       // Shape (num_tets, 4).

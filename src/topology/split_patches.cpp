@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "tessera/base/index_lists.hpp"
 
+#include "topology/add_patch.hpp"
 #include "topology/split_faces.hpp"
 
 namespace tessera::topology {
@@ -55,44 +57,41 @@ class Opener {
     mesh_.vertex_xyz = std::move(all);
   }
 
-  // What is opened of a patch is patches of its own, unless it is all of it: then that is one side.
+  // What is opened of a patch alike is patches of its own, unless it is all of the patch: then that
+  // is one side.
   void make_patches()
   {
-    const LocalIndex num_before = mesh_.num_patches();
-    std::vector<bool> has_open(at(num_before), false);
-    std::vector<bool> has_closed(at(num_before), false);
+    std::map<LocalIndex, std::set<Opening>> openings;
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
-      (split_.is_split(f) ? has_open : has_closed)[at(mesh_.face_patch[at(f)])] = true;
+      openings[mesh_.face_patch[at(f)]].insert(split_.opening(f));
     }
-    mesh::SideImages& images = mesh_.images;
-    if (images.are_none()) {
-      images.transforms.push_back({});
-      images.patch_origin.assign(at(num_before), kNoIndex);
-      images.patch_transform.assign(at(num_before), 0);
-      images.face_origin.assign(at(mesh_.num_faces()), kNoIndex);
-    }
-    plus_.assign(at(num_before), kNoIndex);
-    for (LocalIndex p = 0; p < num_before; ++p) {
-      if (!has_open[at(p)]) continue;
-      plus_[at(p)] = has_closed[at(p)] ? add_patch(p) : p;
-      if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside[at(plus_[at(p)])] = 0;
-      const LocalIndex minus = add_patch(p);
-      images.patch_origin[at(minus)] = plus_[at(p)];
-      minus_of_[plus_[at(p)]] = minus;
+    if (mesh_.images.are_none()) mesh_.images.begin(mesh_.num_patches(), mesh_.num_faces());
+    for (const auto& [patch, ways] : openings) {
+      for (const Opening& way : ways) {
+        if (way.is_open) make_sides(patch, way, ways.size() == 1);
+      }
     }
     name_rows_anew();
   }
 
-  // On the same surface.
-  LocalIndex add_patch(LocalIndex like)
+  void make_sides(LocalIndex patch, const Opening& way, bool is_all)
   {
-    mesh_.patch_names.push_back(std::string(mesh_.patch_names[at(like)]));
-    mesh_.patch_surface.push_back(LocalIndex{mesh_.patch_surface[at(like)]});
-    mesh_.images.patch_origin.push_back(kNoIndex);
-    mesh_.images.patch_transform.push_back(0);
-    if (!mesh_.patch_row.empty()) mesh_.patch_row.push_back(LocalIndex{mesh_.patch_row[at(like)]});
-    if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside.push_back(0);
-    return mesh_.num_patches() - 1;
+    if (way.is_joint()) begin_rows();
+    const LocalIndex plus = is_all ? patch : add_patch(mesh_, patch);
+    if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside[at(plus)] = 0;
+    const LocalIndex minus = add_patch(mesh_, patch);
+    mesh::SideImages& images = mesh_.images;
+    images.patch_origin[at(minus)] = plus;
+    images.patch_is_joint[at(plus)] = images.patch_is_joint[at(minus)] = way.is_joint() ? 1 : 0;
+    sides_[{patch, way}] = {plus, minus};
+  }
+
+  // The sides of a joint are one patch in files.
+  void begin_rows()
+  {
+    if (!mesh_.patch_row.empty()) return;
+    mesh_.patch_row.resize(at(mesh_.num_patches()));
+    std::iota(mesh_.patch_row.begin(), mesh_.patch_row.end(), 0);
   }
 
   // Patches that were of one row still are if they will have one name.
@@ -158,8 +157,9 @@ class Opener {
       };
       set_corners(f, split_.tets(f)[0]);
       if (!split_.is_split(f)) continue;
-      mesh_.face_patch[at(f)] = plus_[at(mesh_.face_patch[at(f)])];
-      add_other_side(f, minus_of_.at(mesh_.face_patch[at(f)]));
+      const auto [plus, minus] = sides_.at({mesh_.face_patch[at(f)], split_.opening(f)});
+      mesh_.face_patch[at(f)] = plus;
+      add_other_side(f, minus);
       set_corners(mesh_.num_faces() - 1, split_.tets(f)[1]);
     }
   }
@@ -177,10 +177,10 @@ class Opener {
 
   mesh::CoarseMesh& mesh_;
   SplitFaces split_;
-  std::vector<LocalIndex> plus_{};  // Of each patch before: one side of what is opened of it.
-  std::map<LocalIndex, LocalIndex> minus_of_{};  // Of such a side.
-  std::vector<LocalIndex> first_copy_{};         // Of each vertex, as a vertex of the opened mesh.
-  std::vector<LocalIndex> origin_{};             // Of each vertex of the opened mesh.
+  // Of a patch before, what is opened of it in one way: the plus and the minus side.
+  std::map<std::pair<LocalIndex, Opening>, std::array<LocalIndex, 2>> sides_{};
+  std::vector<LocalIndex> first_copy_{};  // Of each vertex, as a vertex of the opened mesh.
+  std::vector<LocalIndex> origin_{};      // Of each vertex of the opened mesh.
 };
 
 }  // namespace

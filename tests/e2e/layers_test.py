@@ -343,6 +343,103 @@ class Baffle(LayersTest):
         self.assertLess(covered[(self.FLOOR, "plate_plus")][self.FLOOR], 0.999)
 
 
+class BetweenSolids(LayersTest):
+    """A pipe full of water through a block: the face between them has layers on the side that is named."""
+
+    BLOCK = (
+        "algebraic3d\nsolid ends = plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1);\n"
+        "solid water = cylinder (0, 0, 0; 0, 0, 2; 0.5) and ends;\n"
+        "solid block = orthobrick (-1, -1, -1; 1, 1, 3) and ends and not water;\ntlo water;\ntlo block;\n"
+    )
+    RADIUS = 0.5
+    HEIGHTS = {"water": 0.02 * (1.0 + 1.2 + 1.44), "block": 0.01 * (1.0 + 1.2)}
+    LAYERS = {"water": (0.02, 3), "block": (0.01, 2)}
+
+    def block(self, *sides, more=""):
+        self.write("model.geo", self.BLOCK)
+        text = (f"geometry.file = 'model.geo'\ncoarse.max_size = 0.35\ndecompose.subdomains = 6\nrefine.levels = 1\n"
+                f"{program.NO_PAGE}{more}")
+        for side in sides:
+            first, count = self.LAYERS[side]
+            text += f"[[layer]]\npatch = 'patch_5'\nside = '{side}'\nfirst = {first}\ncount = {count}\n"
+        return self.write("case.toml", text)
+
+    def assert_layers_on(self, sides, out):
+        """Layers are where the case says, and nowhere else: in each solid from the face on, as thick as all of them."""
+        cells = grid_of(out / "mesh.pvtu")
+        material = vtk_to_numpy(cells.GetCellData().GetArray("attribute"))
+        found = {}
+        for cell in numpy.flatnonzero(vtk_to_numpy(cells.GetCellData().GetArray("layer"))):
+            away = max(abs(math.hypot(x, y) - self.RADIUS) for x, y, _ in points_of(cells, cell))
+            side = ("water", "block")[material[cell] - 1]
+            found[side] = max(found.get(side, 0.0), away)
+        self.assertEqual(set(found), set(sides))
+        for side, height in found.items():
+            self.assertAlmostEqual(height, self.HEIGHTS[side], delta=0.05 * self.HEIGHTS[side])
+
+    def test_has_layers_on_the_side_that_is_named(self):
+        bare = self.checked(self.mesh(self.block(), "bare"))
+        area = {patch["name"]: patch["area"] for patch in bare["patches"]}
+        for sides in (("water",), ("block",), ("water", "block")):
+            with self.subTest(sides=sides):
+                name = "_".join(sides)
+                out = self.mesh(self.block(*sides), name)
+                report = self.checked(out)
+                self.assertEqual(report["layers"]["full_height"], 1.0)
+                self.assertAlmostEqual(report["volume"], 8.0, places=9)
+                self.assertAlmostEqual(report["boundary_area"], bare["boundary_area"], places=9)
+                found = {patch["name"]: patch["area"] for patch in report["patches"]}
+                self.assertAlmostEqual(found["patch_5"], area["patch_5"], places=9)
+                self.assert_layers_on(sides, out)
+                for ranks in (1, 3):
+                    other = self.mesh(self.folder / "case.toml", f"{name}_{ranks}", ranks=ranks)
+                    self.assertEqual(program.mesh_files(other), program.mesh_files(out))
+
+    def test_has_them_with_any_kernel_and_graded_levels(self):
+        sizes = "[[size.region]]\nball = { centre = [0.5, 0.0, 1.0], radius = 0.3 }\nsize = 0.09\n"
+        for kernel in ("subdivide", "optimize", "netgen"):
+            with self.subTest(kernel=kernel):
+                case = self.block("water", "block", more=sizes)
+                self.checked(self.mesh(case, kernel, *sets(f"fill.kernel={kernel}")))
+
+    def test_goes_on_after_a_stop(self):
+        case = self.block("water")
+        whole = self.mesh(case, "whole")
+        stopped = self.start("mesh", case, "--output", "out")
+        program.wait_until(lambda: (self.folder / "out" / "pieces").is_dir(), "a store")
+        stopped.send_signal(15)
+        self.assertIn(self.finish(stopped).code, (STOPPED, OK))
+        self.mesh(case, "out", "--resume", ranks=3)
+        self.assertEqual(program.figures(self.folder / "out"), program.figures(whole))
+
+    def test_has_them_across_periodic_sides(self):
+        periodic = (
+            "[[geometry.name]]\nname = 'bottom'\npatch = { normal = [0, 0, -1] }\n"
+            "[[geometry.name]]\nname = 'top'\npatch = { normal = [0, 0, 1] }\n[[periodic]]\nfrom = 'bottom'\nto = 'top'\n")
+        for sides in (("water",), ("water", "block")):
+            with self.subTest(sides=sides):
+                out = self.mesh(self.block(*sides, more=periodic), "_".join(sides))
+                self.assertEqual(self.checked(out)["layers"]["full_height"], 1.0)
+                self.assert_layers_on(sides, out)
+
+    def test_are_cells_of_openfoam_and_parts(self):
+        out = self.mesh(self.block("water"), "out", *sets('output.formats=["openfoam-serial"]'))
+        mesh = PolyMesh(out)
+        self.assertEqual(mesh.num_cells(), self.checked(out)["num_cells"])
+        self.assertGreater(mesh.cell_volumes().min(), 0.0)
+        parted = self.run_program("repartition", out / "mesh.pvtu", "--parts", "3", "--output", "parts", ranks=2)
+        self.assertIn(parted.code, (OK, DEGRADED))
+        self.assertEqual(self.run_program("check", self.folder / "parts" / "mesh.pvtu").code, OK)
+
+    def test_needs_a_solid_and_a_side(self):
+        case = self.block("water")
+        text = case.read_text()
+        case.write_text(text.replace("side = 'water'", "side = 'steel'"))
+        self.assert_refused(self.run_program("mesh", case, "--output", "out", ranks=2), WRONG_INPUT, "[[layer]]", '"steel"', '"water"')
+        case.write_text(text.replace("side = 'water'\n", ""))
+        self.assert_refused(self.run_program("mesh", case, "--output", "none", ranks=2), WRONG_INPUT, "patch_5", "side =")
+
+
 class Refused(LayersTest):
     def test_is_what_names_no_patch_or_several(self):
         outcome = self.run_program("mesh", self.case(patch="inlet"), "--output", "out", ranks=2)

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tessera/base/types.hpp"
+
 namespace tessera {
 
 /// @brief Whether the name is the pattern, or matches it as one of the shell: `*` stands for any
@@ -21,5 +23,11 @@ namespace tessera {
 /// @throws ConfigError if none does, with the names that there are, nearest first.
 [[nodiscard]] std::vector<bool> matching_names(std::string_view kind, const std::string& pattern,
                                                std::span<const std::string> names);
+
+/// @brief Numbers from 1 of the solids whose number or name is the pattern or matches it,
+/// ascending. Local. @param[in] names Of all solids.
+/// @throws ConfigError if none does, with the names that there are, nearest first.
+[[nodiscard]] std::vector<LocalIndex> matching_solids(const std::string& pattern,
+                                                      std::span<const std::string> names);
 
 }  // namespace tessera

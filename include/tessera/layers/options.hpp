@@ -10,6 +10,8 @@ namespace tessera::layers {
 /// @brief Layers on some patches; table `[[layer]]` of a case file. Lengths in output length units.
 struct LayerOptions {
   std::string patch{};     ///< Name of the patches, or a pattern as of the shell.
+  std::string side{};      ///< Name or number of the solids that have the layers, or a pattern;
+                           ///< empty: all that have no other one on the other side.
   double first = 0.0;      ///< Height of the layer at the wall, > 0.
   double growth = 1.2;     ///< Height of a layer by that of the one before it, in [1, 3].
   int count = 0;           ///< Number of layers, >= 1; 0: as many as `thickness` takes.
@@ -18,7 +20,7 @@ struct LayerOptions {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.patch, self.first, self.growth, self.count, self.thickness);
+    return std::tie(self.patch, self.side, self.first, self.growth, self.count, self.thickness);
   }
 
   friend bool operator==(const LayerOptions&, const LayerOptions&) = default;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "tessera/base/affine.hpp"
@@ -18,8 +19,12 @@ struct ImageEdge {
   LocalIndex transform = 0;  ///< Row of SideImages::transforms.
 };
 
+/// @brief Which images are meant.
+enum class ImageKind : std::uint8_t { all, joints, without_joints };
+
 /// @brief The sides of all faces that are images, in the order of these; some stand twice. Local.
-[[nodiscard]] std::vector<ImageEdge> image_edges(const CoarseMesh& mesh);
+[[nodiscard]] std::vector<ImageEdge> image_edges(const CoarseMesh& mesh,
+                                                 ImageKind kind = ImageKind::all);
 
 /// @brief Coarse vertices that are images of each other.
 struct VertexOrbits {
@@ -28,6 +33,7 @@ struct VertexOrbits {
 };
 
 /// @brief Those that such edges make. Local; O(n log n).
-[[nodiscard]] VertexOrbits find_vertex_orbits(const CoarseMesh& mesh);
+[[nodiscard]] VertexOrbits find_vertex_orbits(const CoarseMesh& mesh,
+                                              ImageKind kind = ImageKind::all);
 
 }  // namespace tessera::mesh

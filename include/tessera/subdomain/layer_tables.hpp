@@ -12,7 +12,9 @@
 #include "tessera/mesh/skeleton.hpp"
 
 /// Layers on walls as parts of pieces: which points and cells there are, and their places among all
-/// others. Points are counted under the host entity of the vertex that their column stands on.
+/// others. Points are counted under the host entity of the vertex that their column stands on. At a
+/// joint the copies of a vertex end at one point: that of the copy without a column, or of the
+/// lowest one.
 namespace tessera::subdomain {
 
 /// @brief What layers add to a piece.
@@ -55,11 +57,23 @@ class LayerTables {
   /// @brief Points of all columns.
   [[nodiscard]] GlobalIndex num_points() const { return first_point_.back(); }
 
+  /// @brief Points of a column of its own: without the last one if that is another host's.
+  [[nodiscard]] LocalIndex num_own_points(mesh::HostEntity host) const
+  {
+    return num_layers(host) - (end_host(host) == host ? 0 : 1);
+  }
+
+  /// @brief The host whose points the columns of a host end at: itself, unless at a joint.
+  [[nodiscard]] mesh::HostEntity end_host(mesh::HostEntity host) const
+  {
+    return end_host_[at(host)];
+  }
+
   /// @brief Number of the first point of a column among them, next to the tets; the others follow.
-  /// @pre has_columns(vertex.host)
+  /// @pre num_own_points(vertex.host) > 0
   [[nodiscard]] GlobalIndex first_point(const mesh::HostPoint& vertex) const
   {
-    return first_point_[at(vertex.host)] + GlobalIndex{vertex.index} * num_layers(vertex.host);
+    return first_point_[at(vertex.host)] + GlobalIndex{vertex.index} * num_own_points(vertex.host);
   }
 
   [[nodiscard]] const LayerCounts& counts(LocalIndex subdomain) const
@@ -70,6 +84,15 @@ class LayerTables {
   /// @brief Whether a patch has layers.
   [[nodiscard]] bool is_wall(LocalIndex patch) const { return coarse_->layers.is_wall(patch); }
 
+  /// @brief Whether a wall lies inside of the model: at a joint.
+  [[nodiscard]] bool is_inside(LocalIndex wall) const { return coarse_->images.is_joint(wall); }
+
+  /// @brief Whether files have the triangles of a patch from the other side of a joint.
+  [[nodiscard]] bool is_hidden(LocalIndex patch) const
+  {
+    return coarse_->images.is_minus_of_joint(patch);
+  }
+
   /// @brief The side of layers that stands on a small edge between two vertices of walls, if it
   /// lies on a patch and the subdomain owns it. None: there is another prism, or another owner.
   [[nodiscard]] std::optional<LayerSide> side(const mesh::HostPoint& a, const mesh::HostPoint& b,
@@ -79,9 +102,27 @@ class LayerTables {
   /// @pre has_columns(host)
   [[nodiscard]] LocalIndex owner(mesh::HostEntity host) const { return column_owner_[at(host)]; }
 
+  /// @brief Whether columns of other hosts end at the points of a host that has none.
+  /// @param[in] host Any; only the skeleton's are such.
+  [[nodiscard]] bool is_end_elsewhere(mesh::HostEntity host) const
+  {
+    return host < hosts_.num_on_skeleton() && !has_columns(host)
+           && end_owner_[at(host)] != kNoIndex;
+  }
+
+  /// @brief Lowest subdomain with columns that end at the points of a host; kNoIndex if there are
+  /// none.
+  [[nodiscard]] LocalIndex owner_of_ends(mesh::HostEntity host) const
+  {
+    return end_owner_[at(host)];
+  }
+
  private:
+  void find_layers();
+  void find_ends();
   void count_columns(const mesh::LatticeLevels& levels);
   void find_owners();
+  void find_owners_of_ends();
   void mark_inner_sides(LocalIndex triangle);
   void count_cells(const mesh::LatticeLevels& levels);
   [[nodiscard]] GlobalIndex num_tets_on(LocalIndex triangle,
@@ -104,7 +145,9 @@ class LayerTables {
   std::vector<GlobalIndex> first_point_{0};  ///< Shape (num_on_skeleton + 1).
   std::vector<char> has_inner_side_{};       ///< Shape (num_edges): side between two materials.
   std::vector<LocalIndex> column_owner_{};   ///< Shape (num_on_skeleton): lowest with a wall there.
-  std::vector<LayerCounts> counts_{};        ///< Shape (num_subdomains).
+  std::vector<mesh::HostEntity> end_host_{};  ///< Shape (num_on_skeleton).
+  std::vector<LocalIndex> end_owner_{};       ///< Shape (num_on_skeleton).
+  std::vector<LayerCounts> counts_{};         ///< Shape (num_subdomains).
 };
 
 /// @brief The tables of a mesh with layers; none without. Local.

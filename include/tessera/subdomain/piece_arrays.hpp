@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct WriteContext {
   /// Who owns the vertices of a piece, shape (num_vertices). Needed where `ids` is by owner, as it
   /// is once seams were improved.
   std::function<std::vector<VertexPlace>(const mesh::Piece&)> places_of{};
+  /// The same of vertices of the skeleton, whatever piece has them. Needed at joints.
+  std::function<std::vector<VertexPlace>(std::span<const mesh::HostPoint>)> places_of_names{};
   const LayerTables* layers = nullptr;  ///< Of a mesh with layers.
 
   /// @brief Vertices of the whole mesh, those of layers last.

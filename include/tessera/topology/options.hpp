@@ -29,15 +29,29 @@ struct Contact {
   friend bool operator==(const Contact&, const Contact&) = default;
 };
 
+/// @brief Patches between two solids that are opened for layers on the side of one of them, until
+/// close_joints(). Both are names or patterns, as above.
+struct JointSide {
+  std::string patch{};
+  std::string solid{};
+
+  static auto fields(auto& self) { return std::tie(self.patch, self.solid); }
+  friend bool operator==(const JointSide&, const JointSide&) = default;
+};
+
 /// @brief All along which the mesh is opened.
 struct SplitOptions {
   std::vector<SplitPatch> patches{};
   std::vector<Contact> contacts{};
+  std::vector<JointSide> joints{};  ///< Where nothing else opens it.
 
-  static auto fields(auto& self) { return std::tie(self.patches, self.contacts); }
+  static auto fields(auto& self) { return std::tie(self.patches, self.contacts, self.joints); }
   friend bool operator==(const SplitOptions&, const SplitOptions&) = default;
 
-  [[nodiscard]] bool are_none() const { return patches.empty() && contacts.empty(); }
+  [[nodiscard]] bool are_none() const
+  {
+    return patches.empty() && contacts.empty() && joints.empty();
+  }
 };
 
 /// @brief Patches that are the image of others, so that the mesh can be put side by side with

@@ -200,7 +200,7 @@ StageList coarse_stages(const config::Case& resolved, model::Format format)
   stages.push_back(Stage::coarse);
   append_if(may_want_a_finer_mesh(resolved), Stage::levels, stages);  // A look at the sizes.
   append_if(!resolved.periodic.empty(), Stage::periodic, stages);
-  append_if(!resolved.splits.are_none(), Stage::split, stages);
+  append_if(!openings_of(resolved).are_none(), Stage::split, stages);
   append_if(!resolved.layers.empty(), Stage::layers, stages);
   append_if(sizing::are_wanted(resolved.size), Stage::levels, stages);
   stages.push_back(Stage::decompose);

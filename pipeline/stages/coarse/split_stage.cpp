@@ -17,10 +17,19 @@ constexpr jobs::JobLimits kSplitLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memor
 
 }  // namespace
 
+topology::SplitOptions openings_of(const config::Case& run_case)
+{
+  topology::SplitOptions all = run_case.splits;
+  for (const layers::LayerOptions& layer : run_case.layers) {
+    if (!layer.side.empty()) all.joints.push_back({.patch = layer.patch, .solid = layer.side});
+  }
+  return all;
+}
+
 mesh::CoarseMesh run_rim_stage(const config::Case& run_case, mesh::CoarseMesh coarse,
                                RunContext& context)
 {
-  const topology::SplitOptions& splits = run_case.splits;
+  const topology::SplitOptions splits = openings_of(run_case);
   const bool is_near = comm::on_root(context.comm, [&] {
     return with_file_context(run_case, [&] { return topology::are_rims_near(coarse, splits); });
   });
@@ -41,7 +50,7 @@ mesh::CoarseMesh run_split_stage(const config::Case& run_case, const mesh::Coars
   mesh::CoarseMesh open = comm::on_root_of_nodes(context.comm, [&] {
     return with_file_context(run_case, [&] {
       mesh::CoarseMesh made = closed;
-      topology::split_patches(made, run_case.splits);
+      topology::split_patches(made, openings_of(run_case));
       return made;
     });
   });

@@ -36,6 +36,15 @@ std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of
   };
 }
 
+std::function<std::vector<subdomain::VertexPlace>(std::span<const mesh::HostPoint>)>
+places_of_names(const RunResult& run)
+{
+  if (!run.filled.improvement.pieces) return {};
+  return [pieces = run.filled.improvement.pieces](std::span<const mesh::HostPoint> names) {
+    return pieces->places_of_names(names);
+  };
+}
+
 }  // namespace
 
 NumberedMesh run_number_stage(const RunResult& run, const subdomain::PartitionedMesh& cut,
@@ -43,6 +52,7 @@ NumberedMesh run_number_stage(const RunResult& run, const subdomain::Partitioned
 {
   return {.ids = ids_of(run, cut, outline),
           .places_of = places_of_vertices(run, cut),
+          .places_of_names = places_of_names(run),
           .layers = subdomain::layer_tables(cut.coarse, cut.skeleton,
                                             mesh::lattice_levels(cut.skeleton, cut.levels))};
 }
@@ -56,6 +66,7 @@ subdomain::WriteContext write_context(const NumberedMesh& numbered,
           .ids = numbered.ids,
           .length_unit = length_unit,
           .places_of = numbered.places_of,
+          .places_of_names = numbered.places_of_names,
           .layers = numbered.layers ? &*numbered.layers : nullptr};
 }
 

@@ -23,6 +23,8 @@ struct NumberedMesh {
   number::IdLayout ids;
   /// Who owns which vertex, once pieces have exchanged tets; else empty.
   std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of{};
+  std::function<std::vector<subdomain::VertexPlace>(std::span<const mesh::HostPoint>)>
+      places_of_names{};
   std::optional<subdomain::LayerTables> layers{};  ///< If there are layers; borrows the mesh.
 };
 

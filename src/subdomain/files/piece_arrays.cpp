@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/subdomain/piece_arrays.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -69,26 +70,104 @@ void number_by_owner(const mesh::Piece& piece, const WriteContext& mesh, mesh::M
   }
 }
 
+// At a joint, layers on the other side end at points of the piece.
+void share_points_of_joints(const mesh::Piece& piece, const LayerTables& layers,
+                            mesh::MeshArrays& arrays)
+{
+  auto& owner = arrays.point_ints["owner"];
+  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+    const mesh::HostEntity host = piece.skin_host[at(v)];
+    if (!layers.is_end_elsewhere(host)) continue;
+    owner[at(v)] = std::min(owner[at(v)], layers.owner_of_ends(host));
+  }
+}
+
 void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
 {
   arrays.point_ints["owner"].reserve(at(piece.num_vertices()));
   arrays.point_ids.reserve(at(piece.num_vertices()));
   if (piece.num_vertices() == 0) return;  // Nobody has noted owners of an empty piece.
-  if (mesh.ids.is_by_host()) return number_by_host(piece, mesh, arrays);
-  number_by_owner(piece, mesh, arrays);
+  if (mesh.ids.is_by_host()) {
+    number_by_host(piece, mesh, arrays);
+  } else {
+    number_by_owner(piece, mesh, arrays);
+  }
+  if (mesh.layers != nullptr) share_points_of_joints(piece, *mesh.layers, arrays);
+}
+
+// A vertex of the whole mesh.
+struct NumberedVertex {
+  GlobalIndex id = 0;
+  LocalIndex owner = kNoIndex;
+};
+
+std::vector<NumberedVertex> number_names(std::span<const mesh::HostPoint> names,
+                                         const WriteContext& mesh)
+{
+  std::vector<NumberedVertex> numbered;
+  if (!mesh.ids.is_by_host() && !names.empty()) {
+    for (const VertexPlace& place : mesh.places_of_names(names)) {
+      numbered.push_back({mesh.ids.owned_vertex_id(place.owner, place.index), place.owner});
+    }
+    return numbered;
+  }
+  const mesh::HostLayout hosts(mesh.skeleton);
+  for (const mesh::HostPoint& name : names) {
+    numbered.push_back(
+        {mesh.ids.vertex_id(name), mesh::owner_of_host(mesh.skeleton, hosts, name.host)});
+  }
+  return numbered;
+}
+
+// Of columns that do not end at a point of their own, in their order: where they end. Without a
+// column there, it is a vertex of the tets on the other side of a joint.
+std::vector<NumberedVertex> ends_elsewhere(const LayeredPiece& layered, const WriteContext& mesh)
+{
+  const LayerTables& layers = *mesh.layers;
+  std::vector<mesh::HostPoint> of_tets;
+  for (const mesh::HostPoint& vertex : layered.columns) {
+    const mesh::HostEntity end = layers.end_host(vertex.host);
+    if (end != vertex.host && !layers.has_columns(end)) of_tets.push_back({end, vertex.index});
+  }
+  const std::vector<NumberedVertex> numbered = number_names(of_tets, mesh);
+  std::vector<NumberedVertex> ends;
+  auto next = numbered.begin();
+  for (const mesh::HostPoint& vertex : layered.columns) {
+    const mesh::HostPoint end{layers.end_host(vertex.host), vertex.index};
+    if (end == vertex) continue;
+    const LocalIndex of_columns = layers.owner_of_ends(end.host);
+    if (!layers.has_columns(end.host)) {
+      ends.push_back({next->id, std::min(next->owner, of_columns)});
+      ++next;
+      continue;
+    }
+    ends.push_back(
+        {mesh.ids.num_vertices() + layers.first_point(end) + layers.num_own_points(end.host) - 1,
+         of_columns});
+  }
+  return ends;
 }
 
 void add_layer_points(const LayeredPiece& layered, const WriteContext& mesh,
                       mesh::MeshArrays& arrays)
 {
+  const LayerTables& layers = *mesh.layers;
   auto& owner = arrays.point_ints["owner"];
+  const std::vector<NumberedVertex> ends = ends_elsewhere(layered, mesh);
+  auto next = ends.begin();
   for (const mesh::HostPoint& vertex : layered.columns) {
-    const LocalIndex of_column = mesh.layers->owner(vertex.host);
-    for (LocalIndex layer = 0; layer < mesh.layers->num_layers(vertex.host); ++layer) {
-      arrays.point_ids.push_back(mesh.ids.num_vertices() + mesh.layers->first_point(vertex)
-                                 + layer);
-      owner.push_back(of_column);
+    const LocalIndex num_own = layers.num_own_points(vertex.host);
+    for (LocalIndex layer = 0; layer < num_own; ++layer) {
+      arrays.point_ids.push_back(mesh.ids.num_vertices() + layers.first_point(vertex) + layer);
+      owner.push_back(layers.owner(vertex.host));
     }
+    if (num_own == layers.num_layers(vertex.host)) {
+      owner.back() = layers.owner_of_ends(vertex.host);
+      continue;
+    }
+    arrays.point_ids.push_back(next->id);
+    owner.push_back(next->owner);
+    ++next;
   }
 }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
+#include "tessera/base/union_find.hpp"
 #include "tessera/layers/prism_tets.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/mesh/sorted_rows.hpp"
@@ -25,6 +27,26 @@ LocalIndex num_tets_of_prism(const std::array<bool, 3>& has_column)
   }
   std::vector<LocalIndex> tets;
   return layers::append_prism_tets(prism, true, tets);
+}
+
+// Hosts that stand at one place on the sides of joints.
+UnionFind copies_at_joints(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
+                           const mesh::HostLayout& hosts)
+{
+  UnionFind copies(hosts.num_on_skeleton());
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    const LocalIndex patch = skeleton.triangle_patch[at(t)];
+    if (patch == kNoIndex || !coarse.images.is_joint(patch)) continue;
+    const LocalIndex other = skeleton.orbits.all_triangles.base_of(t);
+    copies.join(hosts.triangle(t), hosts.triangle(other));
+    for (std::size_t c = 0; c < 3; ++c) {
+      copies.join(hosts.vertex(skeleton.triangle_vertices[3 * at(t) + c]),
+                  hosts.vertex(skeleton.triangle_vertices[3 * at(other) + c]));
+      copies.join(hosts.edge(skeleton.triangle_edges[3 * at(t) + c]),
+                  hosts.edge(skeleton.triangle_edges[3 * at(other) + c]));
+    }
+  }
+  return copies;
 }
 
 }  // namespace
@@ -61,17 +83,42 @@ LayerTables::LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& s
                          const mesh::LatticeLevels& levels)
     : coarse_(&coarse), skeleton_(&skeleton), hosts_(skeleton)
 {
+  find_layers();
+  find_ends();
   count_columns(levels);
   find_owners();
+  find_owners_of_ends();
   count_cells(levels);
+}
+
+void LayerTables::find_layers()
+{
+  for (mesh::HostEntity host = 0; host < hosts_.num_on_skeleton(); ++host) {
+    num_layers_.push_back(num_layers_on(*coarse_, *skeleton_, hosts_, host));
+  }
+}
+
+// Of the copies at a joint, one without columns is what the others end at. There is one at most:
+// topology::close_joints().
+void LayerTables::find_ends()
+{
+  UnionFind copies = copies_at_joints(*coarse_, *skeleton_, hosts_);
+  end_host_.assign(at(hosts_.num_on_skeleton()), kNoIndex);
+  std::vector<mesh::HostEntity> end_of(end_host_.size());
+  std::iota(end_of.begin(), end_of.end(), 0);
+  for (mesh::HostEntity host = 0; host < hosts_.num_on_skeleton(); ++host) {
+    if (!has_columns(host)) end_of[at(copies.find(host))] = host;
+  }
+  for (mesh::HostEntity host = 0; host < hosts_.num_on_skeleton(); ++host) {
+    end_host_[at(host)] = has_columns(host) ? end_of[at(copies.find(host))] : host;
+  }
 }
 
 void LayerTables::count_columns(const mesh::LatticeLevels& levels)
 {
   const auto add = [&](mesh::HostEntity host, LocalIndex intervals) {
-    num_layers_.push_back(num_layers_on(*coarse_, *skeleton_, hosts_, host));
     const GlobalIndex num_columns = mesh::num_points_of_host(hosts_.kind_of(host), intervals);
-    first_point_.push_back(first_point_.back() + num_columns * num_layers_.back());
+    first_point_.push_back(first_point_.back() + num_columns * num_own_points(host));
   };
   for (LocalIndex v = 0; v < skeleton_->num_vertices(); ++v) add(hosts_.vertex(v), 1);
   for (LocalIndex e = 0; e < skeleton_->num_edges(); ++e) {
@@ -101,6 +148,17 @@ void LayerTables::find_owners()
       own(hosts_.vertex(skeleton_->triangle_vertices[3 * at(t) + c]), subdomain);
       own(hosts_.edge(skeleton_->triangle_edges[3 * at(t) + c]), subdomain);
     }
+  }
+}
+
+void LayerTables::find_owners_of_ends()
+{
+  end_owner_.assign(column_owner_.size(), kNoIndex);
+  for (mesh::HostEntity host = 0; host < hosts_.num_on_skeleton(); ++host) {
+    if (!has_columns(host)) continue;
+    LocalIndex& owner = end_owner_[at(end_host(host))];
+    owner = owner == kNoIndex ? column_owner_[at(host)]
+                              : std::min(owner, LocalIndex{column_owner_[at(host)]});
   }
 }
 

@@ -33,6 +33,7 @@ class LayerBuilder {
     for (LocalIndex row = 0; row < num_boundary; ++row) {
       if (tables_.is_wall(piece().boundary_patch[at(row)])) add_prisms(row);
     }
+    drop_hidden();
     return std::move(made_);
   }
 
@@ -167,10 +168,29 @@ class LayerBuilder {
     for (std::size_t c = 0; c < 3; ++c) triangle[c] = point(outward[c], tables_.most_layers() - 1);
     const std::array<LocalIndex, 3> of_tets{outward[0].vertex, outward[1].vertex,
                                             outward[2].vertex};
-    made_.outside_area += area_of(triangle) - area_of(of_tets);
+    if (!tables_.is_inside(piece().boundary_patch[at(row)])) {
+      made_.outside_area += area_of(triangle) - area_of(of_tets);
+    }
     std::ranges::copy(triangle, &piece().boundary_vertices[3 * at(row)]);
     const LocalIndex num_last = std::min(piece().num_tets(), 3);
     piece().boundary_tet[at(row)] = tet_behind(triangle, piece().num_tets() - num_last);
+  }
+
+  // The piece on the other side of a joint has these triangles.
+  void drop_hidden()
+  {
+    LocalIndex num_kept = 0;
+    for (LocalIndex row = 0; row < piece().num_boundary(); ++row) {
+      if (tables_.is_hidden(piece().boundary_patch[at(row)])) continue;
+      std::copy_n(&piece().boundary_vertices[3 * at(row)], 3,
+                  &piece().boundary_vertices[3 * at(num_kept)]);
+      piece().boundary_patch[at(num_kept)] = piece().boundary_patch[at(row)];
+      piece().boundary_tet[at(num_kept)] = piece().boundary_tet[at(row)];
+      ++num_kept;
+    }
+    piece().boundary_vertices.resize(3 * at(num_kept));
+    piece().boundary_patch.resize(at(num_kept));
+    piece().boundary_tet.resize(at(num_kept));
   }
 
   [[nodiscard]] double area_of(const std::array<LocalIndex, 3>& triangle) const

@@ -64,5 +64,17 @@ TEST(MatchingNames, AreRefusedIfThereIsNone)
   EXPECT_EQ(message, R"(material = "stee": the model has no such material; it has "steel", "air")");
 }
 
+TEST(MatchingSolids, HaveTheNumberOrTheName)
+{
+  const Names names{"water", "wall", "wall", "7"};
+  EXPECT_EQ(matching_solids("wall", names), (std::vector<LocalIndex>{2, 3}));
+  EXPECT_EQ(matching_solids("1", names), (std::vector<LocalIndex>{1}));
+  EXPECT_EQ(matching_solids("7", names), (std::vector<LocalIndex>{4}));
+  EXPECT_EQ(matching_solids("w*", names), (std::vector<LocalIndex>{1, 2, 3}));
+  const std::string message =
+      testing::message_of<ConfigError>([&] { (void)matching_solids("5", names); });
+  EXPECT_TRUE(message.ends_with("numbered from 1 to 4")) << message;
+}
+
 }  // namespace
 }  // namespace tessera

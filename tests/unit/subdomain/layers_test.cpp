@@ -13,6 +13,7 @@
 #include "tessera/subdomain/count_pieces.hpp"
 #include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
+#include "tessera/topology/split_patches.hpp"
 
 #include "support/decompositions.hpp"
 #include "support/filled_cube.hpp"
@@ -22,9 +23,48 @@
 namespace tessera::subdomain {
 namespace {
 
+constexpr std::size_t kBetween = 6;  // The patch between the materials.
+
 struct Wall {
   std::size_t patch = 0;
   int count = 3;
+  std::string side{};
+};
+
+using Triangle = std::array<GlobalIndex, 3>;
+
+Triangle key_of(const mesh::MeshArrays& cells, const std::array<LocalIndex, 3>& points)
+{
+  Triangle key{};
+  for (std::size_t c = 0; c < 3; ++c) key[c] = cells.point_ids[at(points[c])];
+  std::ranges::sort(key);
+  return key;
+}
+
+// All pieces as one mesh, by ids.
+struct WholeMesh {
+  std::map<Triangle, int> sides{};  // How many tets have each triangle.
+  std::map<Triangle, int> boundary{};
+  std::map<GlobalIndex, Vec3> places{};
+  std::map<GlobalIndex, int> cells{};
+
+  void add(const PieceArrays& piece)
+  {
+    const mesh::MeshArrays& tets = piece.tets;
+    for (std::size_t p = 0; p < tets.point_ids.size(); ++p) {
+      const Vec3 place = point_at(std::span(tets.point_xyz), p);
+      EXPECT_EQ(places.emplace(tets.point_ids[p], place).first->second, place);
+    }
+    for (std::size_t t = 0; t < tets.cell_ids.size(); ++t) {
+      ++cells[tets.cell_ids[t]];
+      const LocalIndex* v = &tets.cell_points[4 * t];
+      for (const auto& [a, b, c] : mesh::kTetFaceCorners) ++sides[key_of(tets, {v[a], v[b], v[c]})];
+    }
+    for (std::size_t t = 0; t < piece.boundary.cell_ids.size(); ++t) {
+      const LocalIndex* v = &piece.boundary.cell_points[3 * t];
+      ++boundary[key_of(piece.boundary, {v[0], v[1], v[2]})];
+    }
+  }
 };
 
 // A cube with layers on some patches, in four subdomains of two materials.
@@ -36,10 +76,15 @@ class LayeredCube : public ::testing::TestWithParam<std::vector<Wall>> {
   {
     mesh::CoarseMesh cube = testing::two_material_cube(4);
     std::vector<layers::LayerOptions> options;
-    for (const auto& [patch, count] : walls) {
-      options.push_back({.patch = cube.patch_names[patch], .first = 0.02, .count = count});
+    topology::SplitOptions openings;
+    for (const auto& [patch, count, side] : walls) {
+      const std::string& name = cube.patch_names[patch];
+      options.push_back({.patch = name, .side = side, .first = 0.02, .count = count});
+      if (!side.empty()) openings.joints.push_back({.patch = name, .solid = side});
     }
+    if (!openings.are_none()) topology::split_patches(cube, openings);
     (void)layers::grow_layers(cube, options, testing::FlatModel(), true);
+    topology::close_joints(cube);
     return cube;
   }
 
@@ -67,6 +112,15 @@ class LayeredCube : public ::testing::TestWithParam<std::vector<Wall>> {
     return testing::fill_of(body_, levels, subdomain, {.kernel = fill::KernelKind::subdivide});
   }
 
+  [[nodiscard]] WholeMesh whole_mesh(int levels) const
+  {
+    const auto tables =
+        layer_tables(body_.coarse, body_.skeleton, mesh::lattice_levels(body_.skeleton, levels));
+    WholeMesh whole;
+    for (const PieceArrays& piece : arrays(levels, *tables)) whole.add(piece);
+    return whole;
+  }
+
   mesh::CoarseMesh coarse_;
   testing::Body body_;
 };
@@ -91,57 +145,39 @@ TEST_P(LayeredCube, HoldsWhatTheClosedFormsSay)
 // Every triangle has two tets, or is one of the boundary; every point has one place; ids are dense.
 TEST_P(LayeredCube, IsOneMesh)
 {
-  const int levels = 1;
-  const auto tables =
-      layer_tables(body_.coarse, body_.skeleton, mesh::lattice_levels(body_.skeleton, levels));
-  std::map<std::array<GlobalIndex, 3>, int> sides;
-  std::map<GlobalIndex, Vec3> places;
-  std::map<std::array<GlobalIndex, 3>, int> boundary;
-  std::map<GlobalIndex, int> cells;
-  const auto key = [](std::array<GlobalIndex, 3> triangle) {
-    std::ranges::sort(triangle);
-    return triangle;
-  };
-  for (const PieceArrays& piece : arrays(levels, *tables)) {
-    const mesh::MeshArrays& tets = piece.tets;
-    for (std::size_t p = 0; p < tets.point_ids.size(); ++p) {
-      const Vec3 place = point_at(std::span(tets.point_xyz), p);
-      EXPECT_EQ(places.emplace(tets.point_ids[p], place).first->second, place);
-    }
-    for (std::size_t t = 0; t < tets.cell_ids.size(); ++t) {
-      ++cells[tets.cell_ids[t]];
-      for (const auto& face : mesh::kTetFaceCorners) {
-        std::array<GlobalIndex, 3> triangle{};
-        for (std::size_t c = 0; c < 3; ++c) {
-          triangle[c] = tets.point_ids[at(tets.cell_points[4 * t + face[c]])];
-        }
-        ++sides[key(triangle)];
-      }
-    }
-    for (std::size_t t = 0; t < piece.boundary.cell_ids.size(); ++t) {
-      std::array<GlobalIndex, 3> triangle{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        triangle[c] = piece.boundary.point_ids[at(piece.boundary.cell_points[3 * t + c])];
-      }
-      ++boundary[key(triangle)];
-      EXPECT_TRUE(sides.contains(key(triangle)));
-    }
-  }
-  EXPECT_EQ(places.rbegin()->first + 1, static_cast<GlobalIndex>(places.size()));
-  EXPECT_EQ(cells.rbegin()->first + 1, static_cast<GlobalIndex>(cells.size()));
-  for (const auto& [triangle, count] : sides) {
-    EXPECT_TRUE(count == 2 || boundary.contains(triangle));
+  const WholeMesh whole = whole_mesh(1);
+  EXPECT_EQ(whole.places.rbegin()->first + 1, static_cast<GlobalIndex>(whole.places.size()));
+  EXPECT_EQ(whole.cells.rbegin()->first + 1, static_cast<GlobalIndex>(whole.cells.size()));
+  for (const auto& [triangle, count] : whole.sides) {
+    EXPECT_TRUE(count == 2 || whole.boundary.contains(triangle));
     EXPECT_LE(count, 2);
   }
-  for (const auto& [triangle, count] : boundary) EXPECT_EQ(count, 1);
+  for (const auto& [triangle, count] : whole.boundary) {
+    EXPECT_EQ(count, 1);
+    EXPECT_TRUE(whole.sides.contains(triangle));
+  }
+}
+
+// At a joint there are as many triangles between the materials as without layers.
+TEST_P(LayeredCube, IsClosedBetweenMaterials)
+{
+  if (std::ranges::all_of(GetParam(), [](const Wall& wall) { return wall.side.empty(); })) return;
+  const WholeMesh whole = whole_mesh(1);
+  const auto is_between = [&](const auto& one) { return whole.sides.at(one.first) == 2; };
+  EXPECT_EQ(std::ranges::count_if(whole.boundary, is_between), 4 * (2 * 4 * 4));
 }
 
 // One side; two opposite ones, of which one ends at the face between the materials; all but one;
-// three that meet, of which each has another number of layers.
-INSTANTIATE_TEST_SUITE_P(Patches, LayeredCube,
-                         ::testing::Values(std::vector<Wall>{{0}}, std::vector<Wall>{{2}, {3}},
-                                           std::vector<Wall>{{0}, {1}, {2}, {3}, {4}},
-                                           std::vector<Wall>{{0, 1}, {2, 4}, {4, 2}}));
+// three that meet, of which each has another number of layers. Then one side between the materials,
+// the other one, both, and one beside walls on the outside.
+INSTANTIATE_TEST_SUITE_P(
+    Patches, LayeredCube,
+    ::testing::Values(std::vector<Wall>{{0}}, std::vector<Wall>{{2}, {3}},
+                      std::vector<Wall>{{0}, {1}, {2}, {3}, {4}},
+                      std::vector<Wall>{{0, 1}, {2, 4}, {4, 2}},
+                      std::vector<Wall>{{kBetween, 3, "1"}}, std::vector<Wall>{{kBetween, 2, "2"}},
+                      std::vector<Wall>{{kBetween, 3, "1"}, {kBetween, 2, "2"}},
+                      std::vector<Wall>{{kBetween, 3, "2"}, {2, 4}, {0, 2}}));
 
 }  // namespace
 }  // namespace tessera::subdomain

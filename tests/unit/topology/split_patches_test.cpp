@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/coarse_edges.hpp"
+#include "tessera/mesh/face_tets.hpp"
 #include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -209,7 +210,7 @@ TEST(SplitPatches, HasEdgesInOneOrderWhereTetsHaveMoved)
   };
   int num_pairs = 0;
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
-    const LocalIndex base = skeleton.orbits.triangles.base_of(t);
+    const LocalIndex base = skeleton.orbits.all_triangles.base_of(t);
     if (base == t) continue;
     ++num_pairs;
     EXPECT_EQ(order(t), order(base));
@@ -307,6 +308,56 @@ TEST(SplitPatches, RefusesPatchesOnTheOutside)
   };
   EXPECT_NE(error_of(cube.patch_names[0]).find("only patches inside of it"), std::string::npos);
   EXPECT_NE(error_of("nowhere").find("nowhere"), std::string::npos);
+}
+
+// Sides of a joint are images with one name, of which the minus side is that of the solid.
+TEST(Joints, OpenOnTheSideOfASolid)
+{
+  for (const std::string solid : {"1", "2"}) {
+    mesh::CoarseMesh cube = testing::two_material_cube(2);
+    const std::string between = cube.patch_names[6];
+    split_patches(cube, {.joints = {{.patch = between, .solid = solid}}});
+    EXPECT_EQ(num_double(cube), 9);
+    EXPECT_EQ(cube.num_patches(), 8);
+    EXPECT_TRUE(cube.images.is_joint(6));
+    EXPECT_FALSE(cube.images.is_minus_of_joint(6));
+    EXPECT_TRUE(cube.images.is_minus_of_joint(7));
+    EXPECT_FALSE(cube.images.is_of_split(7));
+    EXPECT_EQ(mesh::final_patch_names(cube)[7], between);
+    EXPECT_EQ(cube.patch_row[7], cube.patch_row[6]);
+    const auto faces = mesh::tets_of_faces(cube);
+    for (LocalIndex f = 0; f < cube.num_faces(); ++f) {
+      if (cube.face_patch[at(f)] != 7) continue;
+      EXPECT_EQ(std::to_string(cube.tet_material[at(faces[at(f)].tets[0])]), solid);
+    }
+  }
+}
+
+TEST(Joints, CloseWhereNothingHasGrown)
+{
+  const mesh::CoarseMesh before = testing::two_material_cube(3);
+  mesh::CoarseMesh cube = before;
+  split_patches(cube, {.joints = {{.patch = before.patch_names[6], .solid = "*"}}});
+  EXPECT_GT(cube.num_vertices(), before.num_vertices());
+  close_joints(cube);
+  EXPECT_EQ(cube.vertex_xyz, before.vertex_xyz);
+  EXPECT_EQ(cube.tet_vertices, before.tet_vertices);
+  EXPECT_EQ(cube.face_vertices, before.face_vertices);
+}
+
+TEST(Joints, AreNoneWhereTheCaseOpensTheMesh)
+{
+  mesh::CoarseMesh cube = testing::two_material_cube(2);
+  const std::string between = cube.patch_names[6];
+  split_patches(cube, {.patches = {{between}}, .joints = {{.patch = between, .solid = "1"}}});
+  EXPECT_EQ(mesh::final_patch_names(cube)[6], between + "_plus");
+  EXPECT_FALSE(cube.images.is_joint(6));
+}
+
+TEST(Joints, NameASolid)
+{
+  mesh::CoarseMesh cube = testing::two_material_cube(2);
+  EXPECT_THROW(split_patches(cube, {.joints = {{.patch = "*", .solid = "steel"}}}), ConfigError);
 }
 
 }  // namespace
