@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/enum_words.hpp"
 #include "tessera/base/version.hpp"
 #include "tessera/comm/mpi_version.hpp"
@@ -33,6 +34,9 @@ namespace {
 // What a solver may expect of output.parts without a word; 1.06 was measured with 16 subdomains a
 // part.
 constexpr double kMostBalance = 1.1;
+
+// In parts of the diagonal: what projection leaves of rounding.
+constexpr double kOnGeometry = 1e-9;
 
 double largest(const std::vector<subdomain::PieceSummary>& pieces,
                double subdomain::PieceSummary::*member)
@@ -336,7 +340,10 @@ Verdict judge(const RunResult& run)
 {
   Verdict verdict{.reasons = missed_qualities(run)};
   const double held_back = largest(run.filled.pieces, &subdomain::PieceSummary::held_back_distance);
-  if (const std::size_t num = run.limiter.entries().size() - run.num_straightened; num > 0) {
+  // On a plane, points may be held back and still be on it.
+  const bool is_off = held_back > kOnGeometry * box_diagonal(run.coarse.mesh.vertex_xyz);
+  if (const std::size_t num = run.limiter.entries().size() - run.num_straightened;
+      num > 0 && is_off) {
     verdict.reasons.push_back(fmt::format(
         "{} points were kept off the geometry because the surface would have folded, by "
         "at most {:.3g}; a smaller coarse.max_size may help",

@@ -422,6 +422,19 @@ class BetweenSolids(LayersTest):
                 self.assertEqual(self.checked(out)["layers"]["full_height"], 1.0)
                 self.assert_layers_on(sides, out)
 
+    def test_between_planes_are_no_blemish_where_points_are_held_back(self):
+        slabs = "".join(f"solid s{i} = orthobrick (0, 0, {low}; 1, 1, {high});\n" for i, (low, high) in
+                        enumerate(((0.0, 0.3), (0.3, 0.5), (0.5, 1.0))))
+        self.write("model.geo", f"algebraic3d\n{slabs}tlo s0;\ntlo s1;\ntlo s2;\n")
+        out = self.mesh(self.write(
+            "case.toml",
+            f"geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = 9\nrefine.levels = 1\n{program.NO_PAGE}"
+            "[[layer]]\npatch = '*'\nside = 's0'\nfirst = 0.01\ncount = 2\n"
+            "[[layer]]\npatch = '*'\nside = 's1'\nfirst = 0.02\ncount = 3\n"), "out")
+        report = self.checked(out)
+        self.assertGreater(report["repairs"]["held_back_points"], 0)
+        self.assertEqual(report["status"], "ok")
+
     def test_are_cells_of_openfoam_and_parts(self):
         out = self.mesh(self.block("water"), "out", *sets('output.formats=["openfoam-serial"]'))
         mesh = PolyMesh(out)
