@@ -35,9 +35,6 @@ namespace {
 // part.
 constexpr double kMostBalance = 1.1;
 
-// In parts of the diagonal: what projection leaves of rounding.
-constexpr double kOnGeometry = 1e-9;
-
 double largest(const std::vector<subdomain::PieceSummary>& pieces,
                double subdomain::PieceSummary::*member)
 {
@@ -340,8 +337,8 @@ Verdict judge(const RunResult& run)
 {
   Verdict verdict{.reasons = missed_qualities(run)};
   const double held_back = largest(run.filled.pieces, &subdomain::PieceSummary::held_back_distance);
-  // On a plane, points may be held back and still be on it.
-  const bool is_off = held_back > kOnGeometry * box_diagonal(run.coarse.mesh.vertex_xyz);
+  // On a plane, points may be held back and still be on it, but for rounding.
+  const bool is_off = held_back > 1e-9 * box_diagonal(run.coarse.mesh.vertex_xyz);
   if (const std::size_t num = run.limiter.entries().size() - run.num_straightened;
       num > 0 && is_off) {
     verdict.reasons.push_back(fmt::format(

@@ -265,7 +265,7 @@ constexpr Key kLayerKeys[] = {
          "for one, [ab] for one of these. A patch that is split has layers on both sides, or "
          "on one by the name of that side. A patch between two solids has them on the side that "
          "side names. Other patches inside of the model and sides of [[periodic]] are left out. "
-         "No patch may fit two entries, and no side of one.",
+         "No patch, and no side of one, may fit two entries.",
      .reason = "layers are on walls, and only the user knows which patches these are",
      .example = "\"wall*\""},
     {.name = "layer.side",

@@ -56,9 +56,12 @@ class WallChoice {
   [[nodiscard]] std::vector<bool> walls_of(const LayerOptions& entry) const
   {
     std::vector<bool> fits = patches_that_fit(entry);
+    const std::vector<LocalIndex> solids =
+        entry.side.empty() ? std::vector<LocalIndex>{} : matching_solids(entry.side, bodies_);
     std::string obstacle;
     for (std::size_t p = 0; p < fits.size(); ++p) {
-      const std::string found = fits[p] ? obstacle_of(static_cast<LocalIndex>(p), entry) : "";
+      const std::string found =
+          fits[p] ? obstacle_of(static_cast<LocalIndex>(p), entry, solids) : "";
       if (found.empty()) continue;
       fits[p] = false;
       if (mesh_.patch_names[p] == entry.patch) obstacle = found;
@@ -93,14 +96,14 @@ class WallChoice {
                                               : matching_names("patch", entry.patch, final_names_);
   }
 
-  // Empty: there is none.
-  [[nodiscard]] std::string obstacle_of(LocalIndex patch, const LayerOptions& entry) const
+  // Empty: there is none. @param[in] solids That the side fits.
+  [[nodiscard]] std::string obstacle_of(LocalIndex patch, const LayerOptions& entry,
+                                        const std::vector<LocalIndex>& solids) const
   {
     if (!obstacles_[at(patch)].empty()) return obstacles_[at(patch)];
     if (entry.side.empty()) return mesh_.images.is_joint(patch) ? kInnerObstacle : "";
-    const std::vector<LocalIndex> solids = matching_solids(entry.side, bodies_);
     if (std::ranges::includes(solids, bodies_behind_[at(patch)])) return "";
-    return fmt::format("not on the side of \"{}\" alone", entry.side);
+    return fmt::format("beside other solids than \"{}\"", entry.side);
   }
 
   const mesh::CoarseMesh& mesh_;

@@ -2,6 +2,8 @@
 #include "layers/image_columns.hpp"
 
 #include <algorithm>
+#include <array>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -65,6 +67,20 @@ std::vector<bool> vertices_beside_splits(const mesh::CoarseMesh& mesh, const Wal
   return is_beside;
 }
 
+// At how many places there are copies of each vertex.
+std::vector<std::size_t> num_places(const mesh::VertexOrbits& orbits, LocalIndex num_vertices)
+{
+  std::vector<std::set<LocalIndex>> images(at(num_vertices));  // Of the lowest member.
+  for (LocalIndex v = 0; v < num_vertices; ++v) {
+    images[at(orbits.vertices.base_of(v))].insert(orbits.vertices.image_of(v));
+  }
+  std::vector<std::size_t> number;
+  for (LocalIndex v = 0; v < num_vertices; ++v) {
+    number.push_back(images[at(orbits.vertices.base_of(v))].size());
+  }
+  return number;
+}
+
 // Lives for one call of join_image_columns().
 class ColumnJoiner {
  public:
@@ -81,6 +97,7 @@ class ColumnJoiner {
   void run()
   {
     hold_sides_of_joints();
+    hold_at_unlike_sides();
     const IndexLists members_of = rows_by_key(orbits_.vertices.base, mesh_.num_vertices());
     for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
       const auto members = members_of[base];
@@ -100,6 +117,17 @@ class ColumnJoiner {
     for (const SurfaceTriangle& triangle : walls_.triangles) {
       if (triangle.is_wall || !mesh_.images.is_joint(mesh_.face_patch[at(triangle.face)])) continue;
       leave_out(triangle.vertices);
+    }
+  }
+
+  // Where one side of a joint is periodic and the other is not, their columns would not be computed
+  // from the same place.
+  void hold_at_unlike_sides()
+  {
+    const auto own = num_places(orbits_, mesh_.num_vertices());
+    const auto all = num_places(mesh::find_vertex_orbits(mesh_), mesh_.num_vertices());
+    for (const WallVertex& one : walls_.vertices) {
+      if (own[at(one.vertex)] != all[at(one.vertex)]) leave_out(std::array{one.vertex});
     }
   }
 

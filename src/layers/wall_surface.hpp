@@ -61,7 +61,7 @@ struct PatchLayers {
 /// sides that are images of each other are alike. There is none where a wall goes on across the
 /// side as a patch without layers.
 /// @param[in] patches Shape (num_patches).
-/// @pre No wall lies between two materials, or is a periodic side.
+/// @pre No wall has tets on both sides, or is a periodic side.
 [[nodiscard]] WallSurface find_walls(const mesh::CoarseMesh& mesh,
                                      std::span<const PatchLayers> patches);
 

@@ -62,14 +62,14 @@ std::vector<PointLimit> on_whole_orbits(std::vector<PointLimit> limits, const Or
   const auto members_of = [](const OrbitTable& table) {
     return rows_by_key(table.base, static_cast<LocalIndex>(table.base.size()));
   };
-  const IndexLists edges = members_of(orbits.all_edges);
-  const IndexLists triangles = members_of(orbits.all_triangles);
+  const IndexLists edges = members_of(orbits.edges);
+  const IndexLists triangles = members_of(orbits.triangles);
   std::vector<PointLimit> all;
   for (const PointLimit& limit : limits) {
     const LocalIndex row = limit.key.entity;
     const bool is_on_edge = limit.key.carrier == LatticeCarrier::edge;
-    for (const LocalIndex member : is_on_edge ? edges[orbits.all_edges.base_of(row)]
-                                              : triangles[orbits.all_triangles.base_of(row)]) {
+    for (const LocalIndex member :
+         is_on_edge ? edges[orbits.edges.base_of(row)] : triangles[orbits.triangles.base_of(row)]) {
       all.push_back({{limit.key.carrier, member, limit.key.index}, limit.factor});
     }
   }

@@ -43,14 +43,13 @@ Orbits find_orbits(const Skeleton& skeleton, const CoarseMesh& coarse,
   const auto find = [&](LocalIndex num_rows, const std::vector<ImageLink>& links) {
     return find_orbits(num_rows, links, sides.transforms, orbits.images);
   };
-  orbits.all_edges = find(skeleton.num_edges(), edges);
-  orbits.all_triangles = find(skeleton.num_triangles(), triangles);
-  for (auto* links : {&vertices, &edges, &triangles}) {
-    std::erase_if(*links, [](const ImageLink& link) { return link.transform == 0; });
-  }
-  orbits.vertices = find(skeleton.num_vertices(), vertices);
   orbits.edges = find(skeleton.num_edges(), edges);
   orbits.triangles = find(skeleton.num_triangles(), triangles);
+  for (auto* links : {&vertices, &edges}) {
+    std::erase_if(*links, [](const ImageLink& link) { return link.transform == 0; });
+  }
+  orbits.vertex_columns = find(skeleton.num_vertices(), vertices);
+  orbits.edge_columns = find(skeleton.num_edges(), edges);
   return orbits;
 }
 

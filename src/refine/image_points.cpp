@@ -6,11 +6,6 @@ namespace {
 
 namespace lattice = mesh::lattice;
 
-bool is_moved(const mesh::OrbitTable& table, LocalIndex row)
-{
-  return row != kNoIndex && table.origin_of(row) != row;
-}
-
 class Mover {
  public:
   Mover(const mesh::Complex& complex, const mesh::Orbits& orbits, mesh::RefinedLattice& points)
@@ -18,9 +13,8 @@ class Mover {
   {
   }
 
-  void move_edge(LocalIndex e, const std::function<Vec3(LocalIndex)>& position)
+  void move_edge(LocalIndex e, LocalIndex image, const std::function<Vec3(LocalIndex)>& position)
   {
-    const LocalIndex image = orbits_.edges.image_of(complex_.edge_skeleton[at(e)]);
     const LocalIndex n = points_.edge_intervals(e);
     for (LocalIndex k = 1; k < n; ++k) {
       points_.place_edge_point(e, k, orbits_.image(image, points_.edge_point(e, k)));
@@ -66,15 +60,21 @@ Vec3 point_of_side(const mesh::Complex& complex, const mesh::RefinedLattice& poi
 }
 
 void move_to_images(const mesh::Complex& complex, const mesh::Orbits& orbits,
+                    const std::function<const mesh::OrbitTable&(LocalIndex)>& orbits_of_edge,
                     const std::function<Vec3(LocalIndex)>& position, mesh::RefinedLattice& points)
 {
   if (orbits.are_none()) return;
   Mover mover(complex, orbits, points);
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
-    if (is_moved(orbits.edges, complex.edge_skeleton[at(e)])) mover.move_edge(e, position);
+    const LocalIndex edge = complex.edge_skeleton[at(e)];
+    if (edge == kNoIndex) continue;
+    const mesh::OrbitTable& table = orbits_of_edge(edge);
+    if (table.origin_of(edge) != edge) mover.move_edge(e, table.image_of(edge), position);
   }
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
-    if (is_moved(orbits.triangles, complex.triangle_skeleton[at(t)])) mover.move_triangle(t);
+    const LocalIndex triangle = complex.triangle_skeleton[at(t)];
+    const bool is_moved = triangle != kNoIndex && orbits.triangles.origin_of(triangle) != triangle;
+    if (is_moved) mover.move_triangle(t);
   }
 }
 

@@ -16,9 +16,11 @@ namespace tessera::refine {
 
 /// @brief Moves what was refined as another member of its orbit to where it belongs. Local; does
 /// nothing without orbits.
+/// @param[in] orbits_of_edge The table that an edge of the skeleton was refined by.
 /// @param[in] position Of a coarse vertex. Corners go there, as several transforms may lead there,
 /// which differ by rounding.
 void move_to_images(const mesh::Complex& complex, const mesh::Orbits& orbits,
+                    const std::function<const mesh::OrbitTable&(LocalIndex)>& orbits_of_edge,
                     const std::function<Vec3(LocalIndex)>& position, mesh::RefinedLattice& points);
 
 }  // namespace tessera::refine

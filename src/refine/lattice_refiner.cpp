@@ -44,6 +44,29 @@ Vec3 end_of_column(const RefineContext& context, Side side, LocalIndex coarse_ve
                              : context.coarse.position(coarse_vertex);
 }
 
+bool has_column(const RefineContext& context, LocalIndex coarse_vertex)
+{
+  const mesh::WallLayers& layers = context.coarse.layers;
+  return !layers.are_none() && layers.wall(coarse_vertex) != context.coarse.position(coarse_vertex);
+}
+
+// Whether columns stand on an edge of the skeleton.
+bool has_columns(const RefineContext& context, LocalIndex edge)
+{
+  const mesh::Skeleton& skeleton = context.skeleton;
+  const LocalIndex* ends = &skeleton.edge_vertices[2 * at(edge)];
+  return skeleton.is_on_wall(edge) && std::any_of(ends, ends + 2, [&](LocalIndex end) {
+           return has_column(context, skeleton.vertex_coarse[at(end)]);
+         });
+}
+
+// Of an edge of the skeleton. On both sides of a split or a joint all is alike but the columns.
+const mesh::OrbitTable& orbits_of_edge(const RefineContext& context, Side side, LocalIndex edge)
+{
+  const mesh::Orbits& orbits = context.skeleton.orbits;
+  return side == Side::tets && has_columns(context, edge) ? orbits.edge_columns : orbits.edges;
+}
+
 // Points inside of a triangle with `n` intervals a side that are new with this step.
 template <class Visit>
 void for_each_new_inner_point(LocalIndex n, LocalIndex step, const Visit& visit)
@@ -116,7 +139,7 @@ class LatticeRefiner {
   [[nodiscard]] LocalIndex edge_origin(LocalIndex e) const
   {
     const LocalIndex edge = complex_.edge_skeleton[at(e)];
-    return edge == kNoIndex ? kNoIndex : orbits_.edges.origin_of(edge);
+    return edge == kNoIndex ? kNoIndex : orbits_of_edge(context_, side_, edge).origin_of(edge);
   }
   [[nodiscard]] LocalIndex triangle_origin(LocalIndex t) const
   {
@@ -139,6 +162,14 @@ class LatticeRefiner {
     const LocalIndex edge = edge_origin(e);
     return coarse_vertex(context_.skeleton.edge_vertices, 2 * at(edge) + at(end), edge,
                          complex_.edge_vertices[2 * at(e) + at(end)]);
+  }
+
+  // Where an edge is refined. The other side of a joint may have a column there.
+  [[nodiscard]] Vec3 position_of_end(LocalIndex e, LocalIndex end) const
+  {
+    const LocalIndex own = complex_.vertex_coarse[at(complex_.edge_vertices[2 * at(e) + at(end)])];
+    const bool is_on_geometry = !context_.coarse.layers.are_none() && !has_column(context_, own);
+    return end_of_column(context_, is_on_geometry ? Side::walls : side_, end_of_edge(e, end));
   }
 
   [[nodiscard]] Vec3 coarse_position(LocalIndex v) const
@@ -168,10 +199,15 @@ class LatticeRefiner {
   void refine_edge_behind_wall(LocalIndex e, LocalIndex step)
   {
     const LocalIndex n = result_.edge_intervals(e);
+    if (!has_columns(context_, complex_.edge_skeleton[at(e)])) {
+      for (LocalIndex k = step; k < n; k += 2 * step) {
+        result_.place_edge_point(e, k, walls_->edge_point(e, k));
+      }
+      return;
+    }
     const LocalIndex edge = edge_origin(e);
     const double first = coarse_length(end_of_edge(e, 0));
     const double last = coarse_length(end_of_edge(e, 1));
-    const bool has_columns = first > 0.0 || last > 0.0;
     const auto column = [&](LocalIndex k) {
       return result_.edge_point(e, k) - walls_->edge_point(e, k);
     };
@@ -182,8 +218,7 @@ class LatticeRefiner {
           + column_between(column(k - step), column(k + step), first + part * (last - first),
                            mesh::LatticePointKey::on_edge(edge, n, k));
       // Along the rim of a wall columns begin on the patch beside it.
-      result_.place_edge_point(
-          e, k, has_columns ? side_point_of_edge(context_, edge, n, k, straight) : straight);
+      result_.place_edge_point(e, k, side_point_of_edge(context_, edge, n, k, straight));
     }
   }
 
@@ -230,7 +265,8 @@ class LatticeRefiner {
     const LocalIndex edge =
         origin == kNoIndex ? complex_.edge_skeleton[at(complex_.triangle_edges[3 * at(t) + side])]
                            : context_.skeleton.triangle_edges[3 * at(origin) + side];
-    return edge == kNoIndex ? point : orbits_.image(orbits_.edges.image_of(edge), point);
+    if (edge == kNoIndex) return point;
+    return orbits_.image(orbits_of_edge(context_, side_, edge).image_of(edge), point);
   }
 
   void place_ends(LocalIndex e)
@@ -238,7 +274,7 @@ class LatticeRefiner {
     const LocalIndex edge = edge_origin(e);
     for (LocalIndex end = 0; end < 2; ++end) {
       const LocalIndex k = end * result_.edge_intervals(e);
-      result_.place_edge_point(e, k, coarse_position(end_of_edge(e, end)));
+      result_.place_edge_point(e, k, position_of_end(e, end));
       if (edge == kNoIndex || !has_parameters()) continue;
       const double* p = &context_.skeleton.edge_parameters[2 * (2 * at(edge) + at(end))];
       edge_parameters_[result_.edge_place(e, k)] = {p[0], p[1]};
@@ -422,6 +458,9 @@ mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, mesh::LatticeL
   const auto move = [&](Side side, mesh::RefinedLattice& points) {
     move_to_images(
         complex, context.skeleton.orbits,
+        [&](LocalIndex edge) -> const mesh::OrbitTable& {
+          return orbits_of_edge(context, side, edge);
+        },
         [&](LocalIndex v) { return end_of_column(context, side, v); }, points);
   };
   if (context.coarse.layers.are_none()) {

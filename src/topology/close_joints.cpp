@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "tessera/base/union_find.hpp"
 #include "tessera/mesh/image_edges.hpp"
 #include "tessera/topology/split_patches.hpp"
 
@@ -36,14 +35,12 @@ class Closer {
   // Copies keep their order, so both sides of a joint still have the same one.
   void number_vertices()
   {
-    UnionFind places(mesh_.num_vertices());
-    for (const mesh::ImageEdge& edge : mesh::image_edges(mesh_, mesh::ImageKind::joints)) {
-      for (std::size_t end = 0; end < 2; ++end) places.join(edge.from[end], edge.to[end]);
-    }
+    const mesh::OrbitTable places =
+        mesh::find_vertex_orbits(mesh_, mesh::ImageKind::joints).vertices;
     std::vector<LocalIndex> closed(at(mesh_.num_vertices()), kNoIndex);  // By place.
     std::vector<LocalIndex> kept;
     for (LocalIndex v = 0; v < mesh_.num_vertices(); ++v) {
-      LocalIndex& of_place = closed[at(places.find(v))];
+      LocalIndex& of_place = closed[at(places.base_of(v))];
       if (!has_column(v) && of_place != kNoIndex) {
         number_.push_back(of_place);
         continue;

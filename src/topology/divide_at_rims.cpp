@@ -68,13 +68,12 @@ class Inserter {
 
   void insert_into(const Simplex& simplex)
   {
-    const auto tets = around(tets_at_, mesh_.tet_vertices, 4, simplex);
+    const auto tets = around(tets_at_, simplex);
     if (std::ranges::any_of(tets, [&](LocalIndex t) { return is_touched_[at(t)]; })) return;
     for (const LocalIndex t : tets) is_touched_[at(t)] = true;
-    const auto faces = around(faces_at_, mesh_.face_vertices, 3, simplex);
-    const auto segments = simplex.size() == 2
-                              ? around(segments_at_, mesh_.segment_vertices, 2, simplex)
-                              : std::vector<LocalIndex>{};
+    const auto faces = around(faces_at_, simplex);
+    const auto segments =
+        simplex.size() == 2 ? around(segments_at_, simplex) : std::vector<LocalIndex>{};
     const Vec3 wanted = on_geometry(simplex, faces, segments);
     const Vec3 point = as_far_as_possible(simplex, tets, wanted);
     const LocalIndex vertex = mesh_.num_vertices();
@@ -85,16 +84,14 @@ class Inserter {
   }
 
  private:
-  // Rows of cells that have all vertices of the simplex.
-  static std::vector<LocalIndex> around(const IndexLists& at_vertex,
-                                        const FlatArray<LocalIndex>& cells, std::size_t width,
-                                        const Simplex& simplex)
+  // Rows of cells that had all vertices of the simplex before anything was inserted.
+  static std::vector<LocalIndex> around(const IndexLists& at_vertex, const Simplex& simplex)
   {
     std::vector<LocalIndex> rows;
     for (const LocalIndex row : at_vertex[simplex[0]]) {
-      const auto cell = std::span(cells).subspan(width * at(row), width);
-      const bool has_all = std::ranges::all_of(
-          simplex, [&](LocalIndex v) { return std::ranges::find(cell, v) != cell.end(); });
+      const bool has_all = std::ranges::all_of(simplex, [&](LocalIndex v) {
+        return std::ranges::find(at_vertex[v], row) != at_vertex[v].end();
+      });
       if (has_all) rows.push_back(row);
     }
     return rows;
@@ -205,6 +202,7 @@ class Inserter {
         mesh_.face_vertices.insert(mesh_.face_vertices.end(), corners.begin(), corners.end());
         mesh_.face_uv.insert(mesh_.face_uv.end(), parameters.begin(), parameters.end());
         mesh_.face_patch.push_back(LocalIndex{mesh_.face_patch[at(f)]});
+        if (!mesh_.images.are_none()) mesh_.images.face_origin.push_back(kNoIndex);
       }
       const auto c =
           static_cast<std::size_t>(std::ranges::find(corners, simplex[part]) - corners.begin());

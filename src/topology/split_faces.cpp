@@ -66,7 +66,7 @@ class JointSides {
     const std::vector<std::string> bodies = mesh::body_names(mesh);
     for (const JointSide& joint : joints) {
       fits_.push_back(within("[[layer]]", [&] {
-        return Fits{matching_names("patch", joint.patch, mesh.patch_names),
+        return Fits{patches_that_fit(joint.patch, mesh.patch_names),
                     matching_solids(joint.solid, bodies)};
       }));
     }
@@ -86,6 +86,15 @@ class JointSides {
     std::vector<LocalIndex> solids{};  // Ascending.
   };
 
+  // It is no error if there is none: the name may be that of a side of a split.
+  static std::vector<bool> patches_that_fit(const std::string& pattern,
+                                            const std::vector<std::string>& names)
+  {
+    std::vector<bool> fits;
+    for (const std::string& name : names) fits.push_back(matches_pattern(pattern, name));
+    return fits;
+  }
+
   std::vector<Fits> fits_{};
 };
 
@@ -96,6 +105,7 @@ SplitFaces::SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options
   const std::vector<mesh::TriangleTets> triangles = mesh::triangles_of_tets(mesh.tet_vertices);
   find_faces(options, triangles);
   find_sides(triangles);
+  drop_closed_joints();
 }
 
 std::size_t SplitFaces::corner(LocalIndex tet, LocalIndex vertex) const
@@ -187,6 +197,19 @@ void SplitFaces::find_sides(std::span<const mesh::TriangleTets> triangles)
     if (is_on_split[at(v)]) side_[c] = first == c ? num_sides_[at(v)]++ : side_[first];
   }
   for (LocalIndex& number : num_sides_) number = std::max(number, 1);
+}
+
+// Where both sides of a joint would have the same vertices, there is nothing to open.
+void SplitFaces::drop_closed_joints()
+{
+  std::erase_if(faces_, [&](LocalIndex face) {
+    const LocalIndex* v = &mesh_.face_vertices[3 * at(face)];
+    const bool is_closed =
+        std::none_of(v, v + 3, [&](LocalIndex corner) { return is_parted(face, corner); });
+    if (!opening(face).is_joint() || !is_closed) return false;
+    openings_[at(face)] = {};
+    return true;
+  });
 }
 
 }  // namespace tessera::topology

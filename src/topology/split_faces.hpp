@@ -59,6 +59,7 @@ class SplitFaces {
   [[nodiscard]] bool is_minus_first(LocalIndex face, const std::array<LocalIndex, 2>& tets) const;
   void find_faces(const SplitOptions& options, std::span<const mesh::TriangleTets> triangles);
   void find_sides(std::span<const mesh::TriangleTets> triangles);
+  void drop_closed_joints();
 
   const mesh::CoarseMesh& mesh_;
   std::vector<Opening> openings_{};  // Shape (num_faces).

@@ -31,6 +31,7 @@ class Opener {
 
   void run()
   {
+    if (split_.faces().empty()) return;
     make_patches();
     // All of it is found on the closed mesh, whose tets know their sides.
     FlatArray<LocalIndex> tets = open_tets();

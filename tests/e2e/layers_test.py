@@ -413,9 +413,8 @@ class BetweenSolids(LayersTest):
         self.assertEqual(program.figures(self.folder / "out"), program.figures(whole))
 
     def test_has_them_across_periodic_sides(self):
-        periodic = (
-            "[[geometry.name]]\nname = 'bottom'\npatch = { normal = [0, 0, -1] }\n"
-            "[[geometry.name]]\nname = 'top'\npatch = { normal = [0, 0, 1] }\n[[periodic]]\nfrom = 'bottom'\nto = 'top'\n")
+        periodic = "".join(f"[[geometry.name]]\nname = '{name}'\npatch = {{ normal = [0, 0, {z}] }}\n" for name, z in (("low", -1), ("high", 1)))
+        periodic += "[[periodic]]\nfrom = 'low'\nto = 'high'\n"
         for sides in (("water",), ("water", "block")):
             with self.subTest(sides=sides):
                 out = self.mesh(self.block(*sides, more=periodic), "_".join(sides))
@@ -443,6 +442,33 @@ class BetweenSolids(LayersTest):
         parted = self.run_program("repartition", out / "mesh.pvtu", "--parts", "3", "--output", "parts", ranks=2)
         self.assertIn(parted.code, (OK, DEGRADED))
         self.assertEqual(self.run_program("check", self.folder / "parts" / "mesh.pvtu").code, OK)
+
+    def test_are_one_mesh_in_any_number_of_files(self):
+        case = self.block("water", "block")
+        for keys in (("output.files=1",), ("output.files=2",), ("output.parts=2", 'output.formats=["openfoam"]')):
+            for kernel in ("subdivide", "netgen"):
+                with self.subTest(keys=keys, kernel=kernel):
+                    self.checked(self.mesh(case, f"{keys[0]}_{kernel}", *sets(*keys, f"fill.kernel={kernel}"), ranks=2))
+
+    def test_stand_beside_splits(self):
+        """A baffle in the water that stands on the block, and two blocks that touch in water, with a triangle at a corner
+        of what they share that has nothing but the rim."""
+        box = "plane (0, 0, {}; 0, 0, -1) and plane (0, 0, 0; -1, 0, 0) and plane (2, 1, 1; 1, 0, 0)\n  and plane (0, 0, 0; 0, -1, 0) and plane (2, 1, 1; 0, 1, 0) and plane (2, 1, {}; 0, 0, 1)"
+        self.write("model.geo", f"algebraic3d\nsolid block = {box.format(-0.5, 0)};\nsolid water = {box.format(0, 1)};\ntlo water;\ntlo block;\n")
+        plate = "[[embed]]\nname = 'plate'\npolygon = [[1, 0, 0], [1, 1, 0], [1, 1, 0.5], [1, 0, 0.5]]\n[[split]]\npatch = 'plate'\n"
+        for subdomains in (1, 5):
+            with self.subTest(subdomains=subdomains):
+                self.checked(self.mesh(self.write(
+                    "case.toml",
+                    f"geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = {subdomains}\nrefine.levels = 1\n"
+                    f"{program.NO_PAGE}{plate}[[layer]]\npatch = '*'\nside = 'water'\nfirst = 0.01\ncount = 2\n"), f"plate_{subdomains}"))
+        self.write("model.geo", (
+            "algebraic3d\nsolid a = orthobrick (0.3, 0.3, 0.3; 0.5, 0.7, 0.7);\nsolid b = orthobrick (0.5, 0.3, 0.3; 0.7, 0.7, 0.7);\n"
+            "solid water = orthobrick (0, 0, 0; 1, 1, 1) and not a and not b;\ntlo a;\ntlo b;\ntlo water;\n"))
+        self.checked(self.mesh(self.write(
+            "case.toml",
+            f"geometry.file = 'model.geo'\ncoarse.max_size = 0.3\ndecompose.subdomains = 6\nrefine.levels = 1\n{program.NO_PAGE}"
+            "[[geometry.contact]]\nbody = 'a'\nother = 'b'\n[[layer]]\npatch = '*'\nside = 'water'\nfirst = 0.005\ncount = 2\n"), "contact"))
 
     def test_needs_a_solid_and_a_side(self):
         case = self.block("water")

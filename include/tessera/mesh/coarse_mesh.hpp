@@ -72,7 +72,7 @@ struct CoarseMesh {
                                          ///< from 0, ascending. Materials of one row have one name.
                                          ///< Empty: each material is its own row.
 
-  SideImages images{};  ///< Periodic sides, and minus sides of splits.
+  SideImages images{};  ///< Periodic sides, and minus sides of splits and joints.
   WallLayers layers{};  ///< Between the tets and the geometry.
 
   static auto fields(auto& self)

@@ -40,18 +40,16 @@ struct OrbitTable {
 /// an orbit are those of its lowest member under one transform. Empty without SideImages.
 struct Orbits {
   std::vector<Affine> images{};  ///< From the lowest member to another. The first: the identity.
-  // By periodic sides. Both sides of a split or a joint have points of their own.
-  OrbitTable vertices{};
   OrbitTable edges{};
   OrbitTable triangles{};
-  // By splits and joints as well: what is held back from the geometry together.
-  OrbitTable all_edges{};
-  OrbitTable all_triangles{};
+  // By periodic sides alone: both sides of a split or a joint have columns of their own.
+  OrbitTable vertex_columns{};
+  OrbitTable edge_columns{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.images, self.vertices, self.edges, self.triangles, self.all_edges,
-                    self.all_triangles);
+    return std::tie(self.images, self.edges, self.triangles, self.vertex_columns,
+                    self.edge_columns);
   }
 
   [[nodiscard]] bool are_none() const { return images.empty(); }

@@ -57,6 +57,9 @@ class LayerTables {
   /// @brief Points of all columns.
   [[nodiscard]] GlobalIndex num_points() const { return first_point_.back(); }
 
+  /// @brief Whether columns end at points of other hosts.
+  [[nodiscard]] bool has_joints() const { return has_joints_; }
+
   /// @brief Points of a column of its own: without the last one if that is another host's.
   [[nodiscard]] LocalIndex num_own_points(mesh::HostEntity host) const
   {
@@ -146,8 +149,9 @@ class LayerTables {
   std::vector<char> has_inner_side_{};       ///< Shape (num_edges): side between two materials.
   std::vector<LocalIndex> column_owner_{};   ///< Shape (num_on_skeleton): lowest with a wall there.
   std::vector<mesh::HostEntity> end_host_{};  ///< Shape (num_on_skeleton).
-  std::vector<LocalIndex> end_owner_{};       ///< Shape (num_on_skeleton).
-  std::vector<LayerCounts> counts_{};         ///< Shape (num_subdomains).
+  bool has_joints_ = false;
+  std::vector<LocalIndex> end_owner_{};  ///< Shape (num_on_skeleton).
+  std::vector<LayerCounts> counts_{};    ///< Shape (num_subdomains).
 };
 
 /// @brief The tables of a mesh with layers; none without. Local.
@@ -159,10 +163,18 @@ class LayerTables {
 struct LayeredPiece {
   mesh::Piece piece{};  ///< Points and tets of layers come last; its boundary is the geometry.
   std::vector<mesh::HostPoint> columns{};  ///< Ascending; their points are the last vertices, each
-                                           ///< time from the tets outwards.
+                                           ///< time from the tets outwards. At a joint, the last
+                                           ///< one may be there already.
   std::vector<LocalIndex> first_point{};   ///< Shape (num_columns + 1): vertex.
+  std::vector<LocalIndex> end{};           ///< Shape (num_columns): vertex, on the wall.
   LocalIndex num_vertices = 0;             ///< Without these.
   std::vector<LocalIndex> tet_layer{};     ///< Shape (num_tets): from 1 at the wall; 0: in none.
+  /// @brief Whether the last point of a column is its own in this piece.
+  [[nodiscard]] bool has_own_end(std::size_t column) const
+  {
+    return end[column] == first_point[column + 1] - 1;
+  }
+
   double outside_area = 0.0;  ///< What layers add to that of the outside: walls are in front of
                               ///< them, and sides beside them. Output length unit squared.
   std::vector<LocalIndex> tet_of_prism{};  ///< Shape (num_tets): from 0; above it, the tet is of

@@ -64,6 +64,7 @@ class PieceFile {
   const io::OutputOptions& options_;
   PieceArrays arrays_{};
   std::size_t num_skin_of_first_ = 0;
+  std::size_t num_of_tets_of_first_ = 0;
   PointOfId tet_points_{};  ///< Points of skins only: no other is shared.
   PointOfId boundary_points_{};
   PointOfId line_points_{};

@@ -25,10 +25,11 @@ void divide_at_rims(mesh::CoarseMesh& mesh, const SplitOptions& options, const m
 
 /// @brief Opens a mesh. What is opened of a patch becomes two: the plus side on the material with
 /// the lower number, and the minus side on the other one, which is its image: CoarseMesh::images.
-/// Both keep its name: mesh::final_patch_names(). Of a joint the minus side has layers; both are
-/// one row. Copies of vertices stand right behind each other, so on both sides all orders of
-/// vertices are the same: what is made of these sides has the same bits. Local; O(n log n).
-/// @pre !are_rims_near(); no layers. @post mesh::validate() accepts the mesh.
+/// Both keep its name: mesh::final_patch_names(). Of a joint the minus side is one with layers, and
+/// both are one row; it stays closed where it has a rim all around. Copies of vertices stand right
+/// behind each other, so on both sides all orders of vertices are the same: what is made of these
+/// sides has the same bits. Local; O(n log n).
+/// @pre !are_rims_near() without the joints; no layers. @post mesh::validate() accepts the mesh.
 /// @throws as are_rims_near().
 void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options);
 

@@ -29,7 +29,7 @@ topology::SplitOptions openings_of(const config::Case& run_case)
 mesh::CoarseMesh run_rim_stage(const config::Case& run_case, mesh::CoarseMesh coarse,
                                RunContext& context)
 {
-  const topology::SplitOptions splits = openings_of(run_case);
+  const topology::SplitOptions& splits = run_case.splits;
   const bool is_near = comm::on_root(context.comm, [&] {
     return with_file_context(run_case, [&] { return topology::are_rims_near(coarse, splits); });
   });

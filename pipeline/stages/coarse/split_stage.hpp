@@ -13,7 +13,8 @@ namespace tessera::pipeline {
 /// two solids for `[[layer]]`. Local.
 [[nodiscard]] topology::SplitOptions openings_of(const config::Case& run_case);
 
-/// @brief The coarse mesh such that it can be opened.
+/// @brief The coarse mesh such that it can be opened by `[[split]]` and `[[geometry.contact]]`.
+/// What joints cannot open stays closed.
 /// @note Collective: a job of rank 0 if something is to be done. @throws on every rank as
 /// topology::divide_at_rims().
 [[nodiscard]] mesh::CoarseMesh run_rim_stage(const config::Case& run_case, mesh::CoarseMesh coarse,

@@ -2,6 +2,7 @@
 #include "pipeline/stages/output/drawing_plan.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace tessera::pipeline {
@@ -31,7 +32,7 @@ class PlanMaker {
   {
     GlobalIndex num_triangles = 0;
     for (const subdomain::SubdomainRange& file : files) {
-      num_triangles += sum(file, &subdomain::PieceSummary::num_boundary);
+      num_triangles += sum(file, &subdomain::PieceSummary::num_all_boundary);
       plan_.files.push_back({.number = file.number});
     }
     if (files.empty()) plan_.coarse_cut = cut_subdomains(0, cut_.num_subdomains());
@@ -48,12 +49,13 @@ class PlanMaker {
   }
 
  private:
-  [[nodiscard]] GlobalIndex sum(const subdomain::SubdomainRange& file,
-                                GlobalIndex subdomain::PieceSummary::*figure) const
+  // @param[in] figure A member of PieceSummary.
+  template <class Figure>
+  [[nodiscard]] GlobalIndex sum(const subdomain::SubdomainRange& file, Figure figure) const
   {
     GlobalIndex sum = 0;
     for (LocalIndex s = file.first; s < file.last; ++s) {
-      if (pieces_[at(s)] != nullptr) sum += pieces_[at(s)]->*figure;
+      if (pieces_[at(s)] != nullptr) sum += std::invoke(figure, *pieces_[at(s)]);
     }
     return sum;
   }
@@ -87,7 +89,7 @@ class PlanMaker {
 
   void add_boundary(const subdomain::SubdomainRange& file, FileToDraw& drawn)
   {
-    if (sum(file, &subdomain::PieceSummary::num_boundary) == 0) return;
+    if (sum(file, &subdomain::PieceSummary::num_all_boundary) == 0) return;
     drawn.has_boundary = !plan_.is_coarse_boundary;
     drawn.has_surface = !plan_.is_coarse_surface;
     drawn.has_quality = drawn.has_surface && (drawn.is_cut || takes_tets(file));

@@ -76,7 +76,7 @@ std::vector<std::filesystem::path> boundary_files(
     const std::vector<subdomain::PieceSummary>& pieces)
 {
   return files_with("boundary", files, pieces,
-                    [](const auto& piece) { return piece.num_boundary > 0; });
+                    [](const auto& piece) { return piece.num_all_boundary() > 0; });
 }
 
 GatheredFile gather_file(const subdomain::SubdomainRange& range, const io::OutputOptions& options,

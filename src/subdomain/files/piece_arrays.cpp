@@ -119,55 +119,61 @@ std::vector<NumberedVertex> number_names(std::span<const mesh::HostPoint> names,
   return numbered;
 }
 
-// Of columns that do not end at a point of their own, in their order: where they end. Without a
-// column there, it is a vertex of the tets on the other side of a joint.
-std::vector<NumberedVertex> ends_elsewhere(const LayeredPiece& layered, const WriteContext& mesh)
-{
-  const LayerTables& layers = *mesh.layers;
-  std::vector<mesh::HostPoint> of_tets;
-  for (const mesh::HostPoint& vertex : layered.columns) {
-    const mesh::HostEntity end = layers.end_host(vertex.host);
-    if (end != vertex.host && !layers.has_columns(end)) of_tets.push_back({end, vertex.index});
-  }
-  const std::vector<NumberedVertex> numbered = number_names(of_tets, mesh);
-  std::vector<NumberedVertex> ends;
-  auto next = numbered.begin();
-  for (const mesh::HostPoint& vertex : layered.columns) {
-    const mesh::HostPoint end{layers.end_host(vertex.host), vertex.index};
-    if (end == vertex) continue;
-    const LocalIndex of_columns = layers.owner_of_ends(end.host);
-    if (!layers.has_columns(end.host)) {
-      ends.push_back({next->id, std::min(next->owner, of_columns)});
-      ++next;
-      continue;
+// Where columns end, by row of `layered`; of those with an end of their own in the piece. At a
+// joint that may be a vertex of the tets on the other side.
+class ColumnEndIds {
+ public:
+  ColumnEndIds(const LayeredPiece& layered, const WriteContext& mesh) : mesh_(mesh)
+  {
+    std::vector<mesh::HostPoint> of_tets;
+    for (std::size_t row = 0; row < layered.columns.size(); ++row) {
+      const mesh::HostPoint end = end_of(layered.columns[row]);
+      if (layered.has_own_end(row) && !layers().has_columns(end.host)) of_tets.push_back(end);
     }
-    ends.push_back(
-        {mesh.ids.num_vertices() + layers.first_point(end) + layers.num_own_points(end.host) - 1,
-         of_columns});
+    of_tets_ = number_names(of_tets, mesh);
   }
-  return ends;
-}
+
+  // To be asked for in the order of rows.
+  [[nodiscard]] NumberedVertex next(const mesh::HostPoint& column)
+  {
+    const mesh::HostPoint end = end_of(column);
+    const LocalIndex of_columns = layers().owner_of_ends(end.host);
+    if (layers().has_columns(end.host)) {
+      const GlobalIndex point = layers().first_point(end) + layers().num_own_points(end.host) - 1;
+      return {mesh_.ids.num_vertices() + point, of_columns};
+    }
+    const NumberedVertex& of_tets = of_tets_[next_++];
+    return {of_tets.id, std::min(of_tets.owner, of_columns)};
+  }
+
+ private:
+  [[nodiscard]] const LayerTables& layers() const { return *mesh_.layers; }
+  [[nodiscard]] mesh::HostPoint end_of(const mesh::HostPoint& column) const
+  {
+    return {layers().end_host(column.host), column.index};
+  }
+
+  const WriteContext& mesh_;
+  std::vector<NumberedVertex> of_tets_{};
+  std::size_t next_ = 0;
+};
 
 void add_layer_points(const LayeredPiece& layered, const WriteContext& mesh,
                       mesh::MeshArrays& arrays)
 {
   const LayerTables& layers = *mesh.layers;
   auto& owner = arrays.point_ints["owner"];
-  const std::vector<NumberedVertex> ends = ends_elsewhere(layered, mesh);
-  auto next = ends.begin();
-  for (const mesh::HostPoint& vertex : layered.columns) {
-    const LocalIndex num_own = layers.num_own_points(vertex.host);
-    for (LocalIndex layer = 0; layer < num_own; ++layer) {
+  ColumnEndIds ends(layered, mesh);
+  for (std::size_t row = 0; row < layered.columns.size(); ++row) {
+    const mesh::HostPoint& vertex = layered.columns[row];
+    for (LocalIndex layer = 0; layer + 1 < layers.num_layers(vertex.host); ++layer) {
       arrays.point_ids.push_back(mesh.ids.num_vertices() + layers.first_point(vertex) + layer);
       owner.push_back(layers.owner(vertex.host));
     }
-    if (num_own == layers.num_layers(vertex.host)) {
-      owner.back() = layers.owner_of_ends(vertex.host);
-      continue;
-    }
-    arrays.point_ids.push_back(next->id);
-    owner.push_back(next->owner);
-    ++next;
+    if (!layered.has_own_end(row)) continue;
+    const NumberedVertex end = ends.next(vertex);
+    arrays.point_ids.push_back(end.id);
+    owner.push_back(end.owner);
   }
 }
 

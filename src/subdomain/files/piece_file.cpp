@@ -15,11 +15,11 @@ namespace {
 // Which points of a piece others may have: those of its skin, and those of layers.
 struct SharedPoints {
   std::size_t num_skin = 0;
-  GlobalIndex first_of_layers = 0;  // Id.
+  std::size_t num_of_tets = 0;  // Those of layers follow.
 
-  [[nodiscard]] bool has(std::size_t point, GlobalIndex id) const
+  [[nodiscard]] bool has(std::size_t point) const
   {
-    return point < num_skin || id >= first_of_layers;
+    return point < num_skin || point >= num_of_tets;
   }
 };
 
@@ -40,7 +40,7 @@ std::vector<LocalIndex> append_points(const mesh::MeshArrays& from, const Shared
   std::vector<LocalIndex> place(from.point_ids.size());
   for (std::size_t p = 0; p < place.size(); ++p) {
     const auto next = static_cast<LocalIndex>(to.num_points());
-    if (shared.has(p, from.point_ids[p])) {
+    if (shared.has(p)) {
       const auto [found, is_new] = known.emplace(from.point_ids[p], next);
       place[p] = found->second;
       if (!is_new) continue;
@@ -73,7 +73,7 @@ template <class PointOfId>
 void remember(const mesh::MeshArrays& first, const SharedPoints& shared, PointOfId& known)
 {
   for (std::size_t p = 0; p < first.point_ids.size(); ++p) {
-    if (!shared.has(p, first.point_ids[p])) continue;
+    if (!shared.has(p)) continue;
     known.emplace(first.point_ids[p], static_cast<LocalIndex>(p));
   }
 }
@@ -135,25 +135,25 @@ PieceFile::PieceFile(const WriteContext& mesh, const io::OutputOptions& options)
 
 Hash128 PieceFile::add(mesh::Piece piece)
 {
-  const auto num_skin = at(piece.num_skin_vertices());
+  const SharedPoints shared{at(piece.num_skin_vertices()), at(piece.num_vertices())};
   PieceArrays added = piece_arrays(std::move(piece), mesh_, options_.cell_quality);
   const Hash128 digest = digest_of(added.tets);
   const auto num_boundary = added.boundary.point_ids.size();
   const auto num_on_lines = added.lines.point_ids.size();
   if (arrays_.tets.num_cells() == 0) {
     arrays_ = std::move(added);
-    num_skin_of_first_ = num_skin;
+    num_skin_of_first_ = shared.num_skin;
+    num_of_tets_of_first_ = shared.num_of_tets;
     return digest;
   }
-  const GlobalIndex first_of_layers = mesh_.ids.num_vertices();
   if (tet_points_.empty()) {  // Most files hold one piece: only now it is known that this does not.
-    remember(arrays_.tets, {num_skin_of_first_, first_of_layers}, tet_points_);
-    remember(arrays_.boundary, {arrays_.boundary.point_ids.size(), 0}, boundary_points_);
-    remember(arrays_.lines, {arrays_.lines.point_ids.size(), 0}, line_points_);
+    remember(arrays_.tets, {num_skin_of_first_, num_of_tets_of_first_}, tet_points_);
+    remember(arrays_.boundary, {.num_skin = arrays_.boundary.point_ids.size()}, boundary_points_);
+    remember(arrays_.lines, {.num_skin = arrays_.lines.point_ids.size()}, line_points_);
   }
-  append(added.tets, {num_skin, first_of_layers}, tet_points_, arrays_.tets);
-  append(added.boundary, {num_boundary, 0}, boundary_points_, arrays_.boundary);
-  append(added.lines, {num_on_lines, 0}, line_points_, arrays_.lines);
+  append(added.tets, shared, tet_points_, arrays_.tets);
+  append(added.boundary, {.num_skin = num_boundary}, boundary_points_, arrays_.boundary);
+  append(added.lines, {.num_skin = num_on_lines}, line_points_, arrays_.lines);
   return digest;
 }
 

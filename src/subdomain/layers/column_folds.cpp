@@ -66,7 +66,7 @@ std::vector<mesh::LatticePointKey> points_of(const mesh::Complex& complex,
   for (std::size_t c = 0; c < 3; ++c) {
     const LocalIndex v = complex.vertex_skeleton[at(complex.triangle_vertices[3 * at(t) + c])];
     const LocalIndex side_edge =
-        skeleton.vertex_side_edge[at(skeleton.orbits.vertices.origin_of(v))];
+        skeleton.vertex_side_edge[at(skeleton.orbits.vertex_columns.origin_of(v))];
     if (side_edge != kNoIndex) keys.push_back(refine::key_of_vertex_limit(side_edge));
   }
   for (std::size_t side = 0; side < 3; ++side) {

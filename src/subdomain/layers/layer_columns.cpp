@@ -24,7 +24,7 @@ std::vector<LocalIndex> origins_of_wall_edges(const mesh::Complex& complex,
   std::vector<LocalIndex> origins;
   for (const LocalIndex edge : complex.edge_skeleton) {
     if (edge == kNoIndex) continue;
-    const LocalIndex origin = skeleton.orbits.edges.origin_of(edge);
+    const LocalIndex origin = skeleton.orbits.edge_columns.origin_of(edge);
     if (origin != edge && skeleton.is_on_wall(edge)) origins.push_back(origin);
   }
   sort_unique(origins);
@@ -108,9 +108,9 @@ class ColumnMaker {
     };
     switch (hosts_.kind_of(host)) {
       case mesh::HostKind::vertex:
-        return in(orbits.vertices);
+        return in(orbits.vertex_columns);
       case mesh::HostKind::edge:
-        return in(orbits.edges);
+        return in(orbits.edge_columns);
       default:
         return {row};
     }

@@ -37,7 +37,7 @@ UnionFind copies_at_joints(const mesh::CoarseMesh& coarse, const mesh::Skeleton&
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
     const LocalIndex patch = skeleton.triangle_patch[at(t)];
     if (patch == kNoIndex || !coarse.images.is_joint(patch)) continue;
-    const LocalIndex other = skeleton.orbits.all_triangles.base_of(t);
+    const LocalIndex other = skeleton.orbits.triangles.base_of(t);
     copies.join(hosts.triangle(t), hosts.triangle(other));
     for (std::size_t c = 0; c < 3; ++c) {
       copies.join(hosts.vertex(skeleton.triangle_vertices[3 * at(t) + c]),
@@ -111,6 +111,7 @@ void LayerTables::find_ends()
   }
   for (mesh::HostEntity host = 0; host < hosts_.num_on_skeleton(); ++host) {
     end_host_[at(host)] = has_columns(host) ? end_of[at(copies.find(host))] : host;
+    has_joints_ = has_joints_ || end_host_[at(host)] != host;
   }
 }
 

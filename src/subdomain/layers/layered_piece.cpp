@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -59,23 +60,44 @@ class LayerBuilder {
     sort_unique(made_.columns);
   }
 
+  // Vertices that columns of other hosts end at.
+  void find_ends_on_skin()
+  {
+    if (!tables_.has_joints()) return;
+    for (LocalIndex v = 0; v < piece().num_skin_vertices(); ++v) {
+      const mesh::HostPoint name = piece().skin_point(v);
+      if (tables_.is_end_elsewhere(name.host)) ends_.emplace(name, v);
+    }
+  }
+
   void place_points()
   {
-    const mesh::Columns& all = piece().columns;
-    const std::size_t size = 3 * at(tables_.most_layers());
+    find_ends_on_skin();
     for (const mesh::HostPoint& name : made_.columns) {
-      const auto found = std::ranges::lower_bound(all.vertices, name);
-      if (found == all.vertices.end() || *found != name) {
-        throw MeshError(fmt::format("piece {} has no column over vertex {} of host {}",
-                                    piece().subdomain, name.index, name.host));
-      }
-      const double* end =
-          &all.point_xyz[size * static_cast<std::size_t>(found - all.vertices.begin())] + size;
       made_.first_point.push_back(piece().num_vertices());
-      piece().vertex_xyz.insert(piece().vertex_xyz.end(), end - 3 * tables_.num_layers(name.host),
-                                end);
+      add_points(name);
     }
     made_.first_point.push_back(piece().num_vertices());
+  }
+
+  void add_points(const mesh::HostPoint& name)
+  {
+    const mesh::Columns& all = piece().columns;
+    const auto found = std::ranges::lower_bound(all.vertices, name);
+    if (found == all.vertices.end() || *found != name) {
+      throw MeshError(fmt::format("piece {} has no column over vertex {} of host {}",
+                                  piece().subdomain, name.index, name.host));
+    }
+    const std::size_t size = 3 * at(tables_.most_layers());
+    const double* end =
+        &all.point_xyz[size * static_cast<std::size_t>(found - all.vertices.begin())] + size;
+    const double* first = end - 3 * tables_.num_layers(name.host);
+    const mesh::HostPoint end_name{tables_.end_host(name.host), name.index};
+    const auto known = ends_.find(end_name);
+    const bool is_known = known != ends_.end();
+    piece().vertex_xyz.insert(piece().vertex_xyz.end(), first, is_known ? end - 3 : end);
+    made_.end.push_back(is_known ? known->second : piece().num_vertices() - 1);
+    if (!is_known && tables_.has_joints()) ends_.emplace(end_name, made_.end.back());
   }
 
   [[nodiscard]] Corner corner_of(LocalIndex vertex)
@@ -92,9 +114,11 @@ class LayerBuilder {
   [[nodiscard]] LocalIndex point(const Corner& corner, LocalIndex layer) const
   {
     if (corner.column == kNoIndex) return corner.vertex;
+    const auto column = at(corner.column);
     const LocalIndex from_wall = tables_.most_layers() - layer;
-    const LocalIndex p = made_.first_point[at(corner.column) + 1] - from_wall;
-    return p < made_.first_point[at(corner.column)] ? corner.vertex : p;
+    if (from_wall == 1) return made_.end[column];
+    const LocalIndex from_tets = tables_.num_layers(corner.name.host) - from_wall;
+    return from_tets < 0 ? corner.vertex : made_.first_point[column] + from_tets;
   }
 
   void add_prisms(LocalIndex row)
@@ -218,6 +242,7 @@ class LayerBuilder {
 
   const LayerTables& tables_;
   LayeredPiece made_{};
+  std::map<mesh::HostPoint, LocalIndex> ends_{};  // At joints: vertices where columns end.
 };
 
 }  // namespace

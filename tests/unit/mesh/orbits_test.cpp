@@ -91,8 +91,8 @@ TEST(OnWholeOrbits, GiveAllMembersTheSameLimit)
 {
   std::vector<Affine> images{{}};
   Orbits orbits;
-  orbits.all_edges = find_orbits(5, kSquare, kTransforms, images);
-  orbits.all_triangles = find_orbits(3, {}, kTransforms, images);
+  orbits.edges = find_orbits(5, kSquare, kTransforms, images);
+  orbits.triangles = find_orbits(3, {}, kTransforms, images);
   orbits.images = images;
   const PointLimit in_triangle{LatticePointKey::on_triangle(2, 4, {1, 1}), 0.25};
   const std::vector<PointLimit> all =

@@ -3,16 +3,19 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tessera/layers/grow_layers.hpp"
+#include "tessera/mesh/face_tets.hpp"
 #include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 #include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
+#include "tessera/topology/periodic_sides.hpp"
 #include "tessera/topology/split_patches.hpp"
 
 #include "support/decompositions.hpp"
@@ -67,45 +70,29 @@ struct WholeMesh {
   }
 };
 
-// A cube with layers on some patches, in four subdomains of two materials.
-class LayeredCube : public ::testing::TestWithParam<std::vector<Wall>> {
- protected:
-  LayeredCube() : coarse_(with_layers_on(GetParam())), body_(coarse_, testing::slabs(coarse_, 2)) {}
+void add_layers(const std::vector<Wall>& walls, mesh::CoarseMesh& cube)
+{
+  std::vector<layers::LayerOptions> options;
+  topology::SplitOptions openings;
+  for (const auto& [patch, count, side] : walls) {
+    const std::string& name = cube.patch_names[patch];
+    options.push_back({.patch = name, .side = side, .first = 0.02, .count = count});
+    if (!side.empty()) openings.joints.push_back({.patch = name, .solid = side});
+  }
+  if (!openings.are_none()) topology::split_patches(cube, openings);
+  (void)layers::grow_layers(cube, options, testing::FlatModel(), true);
+  topology::close_joints(cube);
+}
 
-  static mesh::CoarseMesh with_layers_on(const std::vector<Wall>& walls)
+// A cube of two materials, in four subdomains.
+class LayeredBody {
+ public:
+  explicit LayeredBody(mesh::CoarseMesh coarse)
+      : coarse_(std::move(coarse)), body_(coarse_, testing::slabs(coarse_, 2))
   {
-    mesh::CoarseMesh cube = testing::two_material_cube(4);
-    std::vector<layers::LayerOptions> options;
-    topology::SplitOptions openings;
-    for (const auto& [patch, count, side] : walls) {
-      const std::string& name = cube.patch_names[patch];
-      options.push_back({.patch = name, .side = side, .first = 0.02, .count = count});
-      if (!side.empty()) openings.joints.push_back({.patch = name, .solid = side});
-    }
-    if (!openings.are_none()) topology::split_patches(cube, openings);
-    (void)layers::grow_layers(cube, options, testing::FlatModel(), true);
-    topology::close_joints(cube);
-    return cube;
   }
 
-  [[nodiscard]] std::vector<PieceArrays> arrays(int levels, const LayerTables& tables) const
-  {
-    const PartitionedMesh cut(body_.coarse, body_.decomposition, levels);
-    const auto ids = number::IdLayout::by_host(mesh::HostLayout(body_.skeleton),
-                                               mesh::lattice_levels(body_.skeleton, levels),
-                                               count_subdivided_pieces(cut, levels));
-    const std::string unit;
-    const WriteContext mesh{.coarse = body_.coarse,
-                            .skeleton = body_.skeleton,
-                            .ids = ids,
-                            .length_unit = unit,
-                            .layers = &tables};
-    std::vector<PieceArrays> all;
-    for (LocalIndex s = 0; s < body_.num_subdomains(); ++s) {
-      all.push_back(piece_arrays(filled(levels, s).piece, mesh, false));
-    }
-    return all;
-  }
+  [[nodiscard]] const testing::Body& body() const { return body_; }
 
   [[nodiscard]] FilledPiece filled(int levels, LocalIndex subdomain) const
   {
@@ -116,36 +103,43 @@ class LayeredCube : public ::testing::TestWithParam<std::vector<Wall>> {
   {
     const auto tables =
         layer_tables(body_.coarse, body_.skeleton, mesh::lattice_levels(body_.skeleton, levels));
+    const PartitionedMesh cut(body_.coarse, body_.decomposition, levels);
+    const auto ids = number::IdLayout::by_host(mesh::HostLayout(body_.skeleton),
+                                               mesh::lattice_levels(body_.skeleton, levels),
+                                               count_subdivided_pieces(cut, levels));
+    const std::string unit;
+    const WriteContext mesh{.coarse = body_.coarse,
+                            .skeleton = body_.skeleton,
+                            .ids = ids,
+                            .length_unit = unit,
+                            .layers = &*tables};
     WholeMesh whole;
-    for (const PieceArrays& piece : arrays(levels, *tables)) whole.add(piece);
+    for (LocalIndex s = 0; s < body_.num_subdomains(); ++s) {
+      whole.add(piece_arrays(filled(levels, s).piece, mesh, false));
+    }
     return whole;
   }
 
+ private:
   mesh::CoarseMesh coarse_;
   testing::Body body_;
 };
 
-TEST_P(LayeredCube, HoldsWhatTheClosedFormsSay)
-{
-  for (const int levels : {0, 1, 2}) {
-    const PartitionedMesh cut(body_.coarse, body_.decomposition, levels);
-    const auto counts = count_subdivided_pieces(cut, levels);
-    double volume = 0.0;
-    for (LocalIndex s = 0; s < body_.num_subdomains(); ++s) {
-      const PieceSummary summary = filled(levels, s).result.summary;
-      EXPECT_FALSE(summary.is_folded);
-      EXPECT_EQ(counts_of(summary).tets, counts[at(s)].tets);
-      EXPECT_EQ(counts_of(summary).boundary_triangles, counts[at(s)].boundary_triangles);
-      volume += summary.whole_volume();
-    }
-    EXPECT_NEAR(volume, 1.0, 1e-12);
+class LayeredCube : public ::testing::TestWithParam<std::vector<Wall>> {
+ protected:
+  static mesh::CoarseMesh with_layers()
+  {
+    mesh::CoarseMesh cube = testing::two_material_cube(4);
+    add_layers(GetParam(), cube);
+    return cube;
   }
-}
+
+  LayeredBody layered_{with_layers()};
+};
 
 // Every triangle has two tets, or is one of the boundary; every point has one place; ids are dense.
-TEST_P(LayeredCube, IsOneMesh)
+void expect_one_mesh(const WholeMesh& whole)
 {
-  const WholeMesh whole = whole_mesh(1);
   EXPECT_EQ(whole.places.rbegin()->first + 1, static_cast<GlobalIndex>(whole.places.size()));
   EXPECT_EQ(whole.cells.rbegin()->first + 1, static_cast<GlobalIndex>(whole.cells.size()));
   for (const auto& [triangle, count] : whole.sides) {
@@ -158,11 +152,31 @@ TEST_P(LayeredCube, IsOneMesh)
   }
 }
 
+TEST_P(LayeredCube, HoldsWhatTheClosedFormsSay)
+{
+  const testing::Body& body = layered_.body();
+  for (const int levels : {0, 1, 2}) {
+    const PartitionedMesh cut(body.coarse, body.decomposition, levels);
+    const auto counts = count_subdivided_pieces(cut, levels);
+    double volume = 0.0;
+    for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
+      const PieceSummary summary = layered_.filled(levels, s).result.summary;
+      EXPECT_FALSE(summary.is_folded);
+      EXPECT_EQ(counts_of(summary).tets, counts[at(s)].tets);
+      EXPECT_EQ(counts_of(summary).boundary_triangles, counts[at(s)].boundary_triangles);
+      volume += summary.whole_volume();
+    }
+    EXPECT_NEAR(volume, 1.0, 1e-12);
+  }
+}
+
+TEST_P(LayeredCube, IsOneMesh) { expect_one_mesh(layered_.whole_mesh(1)); }
+
 // At a joint there are as many triangles between the materials as without layers.
 TEST_P(LayeredCube, IsClosedBetweenMaterials)
 {
   if (std::ranges::all_of(GetParam(), [](const Wall& wall) { return wall.side.empty(); })) return;
-  const WholeMesh whole = whole_mesh(1);
+  const WholeMesh whole = layered_.whole_mesh(1);
   const auto is_between = [&](const auto& one) { return whole.sides.at(one.first) == 2; };
   EXPECT_EQ(std::ranges::count_if(whole.boundary, is_between), 4 * (2 * 4 * 4));
 }
@@ -178,6 +192,52 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<Wall>{{kBetween, 3, "1"}}, std::vector<Wall>{{kBetween, 2, "2"}},
                       std::vector<Wall>{{kBetween, 3, "1"}, {kBetween, 2, "2"}},
                       std::vector<Wall>{{kBetween, 3, "2"}, {2, 4}, {0, 2}}));
+
+// The sides of each material along y are patches of their own: "low_1" and so on.
+mesh::CoarseMesh cube_with_sides()
+{
+  mesh::CoarseMesh cube = testing::two_material_cube(4);
+  const auto faces = mesh::tets_of_faces(cube);
+  std::map<std::string, LocalIndex> rows;
+  for (LocalIndex f = 0; f < cube.num_faces(); ++f) {
+    const LocalIndex* v = &cube.face_vertices[3 * at(f)];
+    for (const auto& [y, name] : {std::pair(0.0, "low_"), std::pair(1.0, "high_")}) {
+      const auto is_there = [&](LocalIndex corner) { return cube.position(corner)[1] == y; };
+      if (!std::all_of(v, v + 3, is_there)) continue;
+      const std::string of_material =
+          name + std::to_string(cube.tet_material[at(faces[at(f)].tets[0])]);
+      const auto [row, is_new] = rows.emplace(of_material, cube.num_patches());
+      if (is_new) {
+        cube.patch_names.push_back(of_material);
+        cube.patch_surface.push_back(LocalIndex{cube.patch_surface[at(cube.face_patch[at(f)])]});
+      }
+      cube.face_patch[at(f)] = row->second;
+    }
+  }
+  return cube;
+}
+
+// Each material is periodic by an entry of its own, which may lead the other way, or only one is.
+TEST(JointsAtPeriodicSides, AreOneMesh)
+{
+  using Sides = std::vector<topology::PeriodicSide>;
+  const topology::PeriodicSide first{.from = "low_1", .to = "high_1"};
+  const topology::PeriodicSide second{.from = "low_2", .to = "high_2"};
+  const topology::PeriodicSide back{.from = "high_2", .to = "low_2"};
+  for (const Sides& sides :
+       {Sides{first, second}, Sides{first, back}, Sides{first}, Sides{second}}) {
+    for (const std::vector<Wall>& walls :
+         {std::vector<Wall>{{kBetween, 3, "1"}}, std::vector<Wall>{{kBetween, 2, "2"}},
+          std::vector<Wall>{{kBetween, 3, "1"}, {kBetween, 2, "2"}}}) {
+      SCOPED_TRACE(sides.back().from + " of " + std::to_string(sides.size()) + ", "
+                   + walls.front().side + " of " + std::to_string(walls.size()));
+      mesh::CoarseMesh cube = cube_with_sides();
+      topology::join_periodic_sides(cube, sides);
+      add_layers(walls, cube);
+      expect_one_mesh(LayeredBody(std::move(cube)).whole_mesh(2));
+    }
+  }
+}
 
 }  // namespace
 }  // namespace tessera::subdomain

@@ -102,7 +102,7 @@ TEST(PeriodicSides, MakeOrbitsOfCornersEdgesAndTriangles)
   const mesh::Skeleton skeleton =
       mesh::build_skeleton(cube, testing::one_subdomain_a_material(cube));
   std::map<LocalIndex, int> members;
-  for (const LocalIndex base : skeleton.orbits.vertices.base) ++members[base];
+  for (const LocalIndex base : skeleton.orbits.vertex_columns.base) ++members[base];
   std::map<int, int> orbits_of_size;
   for (const auto& [base, size] : members) ++orbits_of_size[size];
   // The corners; points within edges by four; points within faces by two; all lie outside.

@@ -210,7 +210,7 @@ TEST(SplitPatches, HasEdgesInOneOrderWhereTetsHaveMoved)
   };
   int num_pairs = 0;
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
-    const LocalIndex base = skeleton.orbits.all_triangles.base_of(t);
+    const LocalIndex base = skeleton.orbits.triangles.base_of(t);
     if (base == t) continue;
     ++num_pairs;
     EXPECT_EQ(order(t), order(base));
