@@ -8,6 +8,7 @@
 
 #include "refine/image_points.hpp"
 #include "refine/limited.hpp"
+#include "refine/sides.hpp"
 
 namespace tessera::refine {
 namespace {
@@ -19,52 +20,6 @@ using model::SurfaceParameters;
 SurfaceParameters middle(const SurfaceParameters& a, const SurfaceParameters& b)
 {
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-}
-
-// Whether an edge or a triangle of a complex lies on a wall.
-bool is_wall_edge(const mesh::Complex& complex, const RefineContext& context, LocalIndex e)
-{
-  const LocalIndex edge = complex.edge_skeleton[at(e)];
-  return edge != kNoIndex && context.skeleton.is_on_wall(edge);
-}
-
-bool is_wall_triangle(const mesh::Complex& complex, const RefineContext& context, LocalIndex t)
-{
-  const LocalIndex triangle = complex.triangle_skeleton[at(t)];
-  return triangle != kNoIndex
-         && context.coarse.layers.is_wall(context.skeleton.triangle_patch[at(triangle)]);
-}
-
-// Which ends of columns are refined. Without layers there are those of the tets only.
-enum class Side { tets, walls };
-
-Vec3 end_of_column(const RefineContext& context, Side side, LocalIndex coarse_vertex)
-{
-  return side == Side::walls ? context.coarse.layers.wall(coarse_vertex)
-                             : context.coarse.position(coarse_vertex);
-}
-
-bool has_column(const RefineContext& context, LocalIndex coarse_vertex)
-{
-  const mesh::WallLayers& layers = context.coarse.layers;
-  return !layers.are_none() && layers.wall(coarse_vertex) != context.coarse.position(coarse_vertex);
-}
-
-// Whether columns stand on an edge of the skeleton.
-bool has_columns(const RefineContext& context, LocalIndex edge)
-{
-  const mesh::Skeleton& skeleton = context.skeleton;
-  const LocalIndex* ends = &skeleton.edge_vertices[2 * at(edge)];
-  return skeleton.is_on_wall(edge) && std::any_of(ends, ends + 2, [&](LocalIndex end) {
-           return has_column(context, skeleton.vertex_coarse[at(end)]);
-         });
-}
-
-// Of an edge of the skeleton. On both sides of a split or a joint all is alike but the columns.
-const mesh::OrbitTable& orbits_of_edge(const RefineContext& context, Side side, LocalIndex edge)
-{
-  const mesh::Orbits& orbits = context.skeleton.orbits;
-  return side == Side::tets && has_columns(context, edge) ? orbits.edge_columns : orbits.edges;
 }
 
 // Points inside of a triangle with `n` intervals a side that are new with this step.
