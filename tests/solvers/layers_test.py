@@ -26,6 +26,29 @@ patch = "wall"
 first = 0.03
 count = 2
 """
+JOINT_MODEL = """algebraic3d
+solid ends = plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);
+solid round = cylinder (0, 0, 0; 0, 0, 1; 0.5) -bcname=contact;
+solid water = round and ends;
+solid block = orthobrick (-1, -1, -1; 1, 1, 3) and ends and not round;
+tlo water;
+tlo block;
+"""
+JOINT_CASE = """geometry.file = "model.geo"
+coarse.max_size = 0.4
+decompose.subdomains = 6
+refine.levels = 1
+[[layer]]
+patch = "contact"
+side = "water"
+first = 0.03
+count = 2
+[[layer]]
+patch = "contact"
+side = "block"
+first = 0.02
+count = 3
+"""
 GMSH_TYPES = {4: "tetra", 7: "pyramid", 6: "wedge", 2: "triangle", 3: "quad"}
 
 
@@ -92,21 +115,40 @@ class Layers(unittest.TestCase):
         self.assertEqual(counts, list(self.counts.values()))
 
     def test_calculix_solves_the_patch_test(self):
-        """All nodes move as those on the boundary do; its volume is ours."""
-        deck = Deck(self.folders["abaqus"] / "mesh.inp")
-        held = numpy.unique(numpy.concatenate(list(deck.nodes.values())))
-        moves = deck.xyz @ GRADIENT.T
-        load = "*BOUNDARY\n" + "".join(
-            f"{node},{axis + 1},{axis + 1},{moves[node - 1, axis]:.13e}\n" for node in held for axis in range(3))
-        load += "*DSLOAD\n" + "".join(f"{name},P,0.\n" for name in deck.surfaces)
-        load += "*NODE PRINT, NSET=NALL\nU\n*EL PRINT, ELSET=EALL, TOTALS=ONLY\nEVOL\n"
-        tables = deck.solve(load)
-        nodes, found = deck.displacements(tables, "NALL")
-        error = abs(found - moves[nodes - 1]).max() / abs(moves).max()
-        print(f"patch test: {error:.1e}")
-        volume = tables["total volume for set EALL"][0, 0]
-        self.assertAlmostEqual(volume / sum(self.mesh.volumes().values()), 1.0, delta=1e-3)
-        self.assertLess(error, 1e-3)
+        assert_patch_test(self, self.mesh, self.folders["abaqus"], ())
+
+
+class Joint(unittest.TestCase):
+    """Layers on both sides of the face between a pipe full of water and the block around it."""
+
+    def test_calculix_solves_the_patch_test_across_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = pathlib.Path(folder) / "case.toml"
+            case.write_text(JOINT_CASE, encoding="utf-8")
+            case.with_name("model.geo").write_text(JOINT_MODEL, encoding="utf-8")
+            mesh = Mesh(case, 3)
+        self.addCleanup(mesh.remove)
+        assert_patch_test(self, mesh, mesh.convert("abaqus"), ("N_CONTACT",))
+
+
+def assert_patch_test(test, mesh, folder, free):
+    """All nodes move as those on the boundary do, but for that on free patches; the volume is ours."""
+    deck = Deck(folder / "mesh.inp")
+    held = [nodes for name, nodes in deck.nodes.items() if name not in free]
+    test.assertEqual(len(deck.nodes) - len(held), len(free), deck.nodes.keys())
+    held = numpy.unique(numpy.concatenate(held))
+    moves = deck.xyz @ GRADIENT.T
+    load = "*BOUNDARY\n" + "".join(
+        f"{node},{axis + 1},{axis + 1},{moves[node - 1, axis]:.13e}\n" for node in held for axis in range(3))
+    load += "*DSLOAD\n" + "".join(f"{name},P,0.\n" for name in deck.surfaces)
+    load += "*NODE PRINT, NSET=NALL\nU\n*EL PRINT, ELSET=EALL, TOTALS=ONLY\nEVOL\n"
+    tables = deck.solve(load)
+    nodes, found = deck.displacements(tables, "NALL")
+    error = abs(found - moves[nodes - 1]).max() / abs(moves).max()
+    print(f"patch test: {error:.1e}")
+    volume = tables["total volume for set EALL"][0, 0]
+    test.assertAlmostEqual(volume / sum(mesh.volumes().values()), 1.0, delta=1e-3)
+    test.assertLess(error, 1e-3)
 
 
 if __name__ == "__main__":
