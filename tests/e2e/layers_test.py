@@ -43,6 +43,15 @@ class LayersTest(program.ProgramTest):
         figures, _ = self.assert_checked(folder, volume_tolerance=1e-12)
         return figures
 
+    def assert_goes_on_after_a_stop(self, case):
+        whole = self.mesh(case, "whole")
+        stopped = self.start("mesh", case, "--output", "out")
+        program.wait_until(lambda: (self.folder / "out" / "pieces").is_dir(), "a store")
+        stopped.send_signal(15)
+        self.assertIn(self.finish(stopped).code, (STOPPED, OK))
+        self.mesh(case, "out", "--resume", ranks=3)
+        self.assertEqual(program.figures(self.folder / "out"), program.figures(whole))
+
 
 class AnyNumberOfRanks(LayersTest):
     def test_has_the_same_bits(self):
@@ -70,14 +79,7 @@ class AnyNumberOfRanks(LayersTest):
         self.assertEqual(len(set(found)), 1, found)
 
     def test_goes_on_after_a_stop(self):
-        case = self.case()
-        whole = self.mesh(case, "whole")
-        stopped = self.start("mesh", case, "--output", "out")
-        program.wait_until(lambda: (self.folder / "out" / "pieces").is_dir(), "a store")
-        stopped.send_signal(15)
-        self.assertIn(self.finish(stopped).code, (STOPPED, OK))
-        self.mesh(case, "out", "--resume", ranks=3)
-        self.assertEqual(program.figures(self.folder / "out"), program.figures(whole))
+        self.assert_goes_on_after_a_stop(self.case())
 
 
 class Shape(program.ResultTest, LayersTest):
@@ -403,14 +405,7 @@ class BetweenSolids(LayersTest):
                 self.checked(self.mesh(case, kernel, *sets(f"fill.kernel={kernel}")))
 
     def test_goes_on_after_a_stop(self):
-        case = self.block("water")
-        whole = self.mesh(case, "whole")
-        stopped = self.start("mesh", case, "--output", "out")
-        program.wait_until(lambda: (self.folder / "out" / "pieces").is_dir(), "a store")
-        stopped.send_signal(15)
-        self.assertIn(self.finish(stopped).code, (STOPPED, OK))
-        self.mesh(case, "out", "--resume", ranks=3)
-        self.assertEqual(program.figures(self.folder / "out"), program.figures(whole))
+        self.assert_goes_on_after_a_stop(self.block("water"))
 
     def test_has_them_across_periodic_sides(self):
         periodic = "".join(f"[[geometry.name]]\nname = '{name}'\npatch = {{ normal = [0, 0, {z}] }}\n" for name, z in (("low", -1), ("high", 1)))

@@ -54,8 +54,9 @@ struct LayerCover {
 /// @cite badoiu2008  The direction that sees all triangles around a vertex best.
 /// @param[in] keep_tets  Tets stay who they are: none is flipped or merged.
 /// @pre mesh::validate() accepts the mesh; it has no layers. @post mesh::validate() accepts it.
-/// @throws ConfigError if an entry fits no patch, or none but such as lie between two materials
-/// where the mesh is not open, or are periodic sides, if several fit one, or if the layers are
+/// @throws ConfigError if an entry fits no patch that can be a wall: those between two materials
+/// where the mesh is not open cannot, nor can periodic sides.
+/// @throws ConfigError if several entries fit one patch, or if the layers are
 /// thicker than the model.
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> options,

@@ -169,16 +169,16 @@ struct LayeredPiece {
   std::vector<LocalIndex> end{};           ///< Shape (num_columns): vertex, on the wall.
   LocalIndex num_vertices = 0;             ///< Without these.
   std::vector<LocalIndex> tet_layer{};     ///< Shape (num_tets): from 1 at the wall; 0: in none.
+  double outside_area = 0.0;  ///< What layers add to that of the outside: walls are in front of
+                              ///< them, and sides beside them. Output length unit squared.
+  std::vector<LocalIndex> tet_of_prism{};  ///< Shape (num_tets): from 0; above it, the tet is of
+                                           ///< the same prism as the one before it.
+
   /// @brief Whether the last point of a column is its own in this piece.
   [[nodiscard]] bool has_own_end(std::size_t column) const
   {
     return end[column] == first_point[column + 1] - 1;
   }
-
-  double outside_area = 0.0;  ///< What layers add to that of the outside: walls are in front of
-                              ///< them, and sides beside them. Output length unit squared.
-  std::vector<LocalIndex> tet_of_prism{};  ///< Shape (num_tets): from 0; above it, the tet is of
-                                           ///< the same prism as the one before it.
 };
 
 /// @brief Puts layers onto a piece. Local.
