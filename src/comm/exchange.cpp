@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 #include <list>
+#include <thread>
 #include <utility>
 
 #include "tessera/comm/communicator.hpp"
@@ -87,6 +88,8 @@ std::vector<Message> Communicator::exchange(std::vector<Message> messages) const
       in_barrier = true;
     }
     if (in_barrier) MPI_Test(&barrier, &all_done, MPI_STATUS_IGNORE);
+    // What is waited for may be done by a rank that has no core of its own.
+    if (all_done == 0) std::this_thread::yield();
   }
   // A rank that learns early that the barrier is complete must not start another exchange while a
   // later one still looks for messages of this one.
