@@ -106,9 +106,9 @@ std::string count_text(double count)
 std::string face_text(const model::FaceDescription& face, const Box& box,
                       const std::optional<Vec3>& normal, const std::string& unit)
 {
-  std::string text = fmt::format("  {:>5}  {:<20} area {:.6g}{}, box {}", face.number,
-                                 face.name.empty() ? "-" : face.name, face.area,
-                                 unit.empty() ? "" : " " + unit + "²", box_text(box));
+  std::string text =
+      fmt::format("  {:>5}  {:<20} area {:.6g}{}, box {}", face.number, face.patch_name(),
+                  face.area, unit.empty() ? "" : " " + unit + "²", box_text(box));
   if (normal) text += ", normal " + point_text(*normal);
   if (!face.colour.empty()) text += ", colour " + face.colour;
   if (face.is_inside) text += fmt::format(", inside solid {}", face.solids.front());
@@ -206,6 +206,7 @@ Json faces_json(const model::ModelDescription& description, const Boxes& boxes)
     const model::FaceDescription& face = description.faces[f];
     faces.push_back({{"number", face.number},
                      {"name", face.name},
+                     {"patch", face.patch_name()},
                      {"colour", face.colour},
                      {"area", face.area},
                      {"box", json_of(boxes.faces[f])},

@@ -227,13 +227,13 @@ model::ModelDescription CadOwnModel::describe(surface::SurfaceMesher mesher) con
   described.solids = of_mesh.solids;
   for (model::FaceDescription& face : described.faces) face.solids.clear();
   for (LocalIndex p = 0; p < mesh.num_patches(); ++p) {
-    const auto face = std::ranges::find(described.faces, mesh.patch_surface[at(p)] + 1,
-                                        &model::FaceDescription::number);
-    if (face == described.faces.end()) continue;
-    face->name = mesh.patch_names[at(p)];
-    std::vector<LocalIndex> both;
-    std::ranges::set_union(face->solids, of_mesh.faces[at(p)].solids, std::back_inserter(both));
-    face->solids = std::move(both);
+    for (model::FaceDescription& face : described.faces) {
+      if (face.number != mesh.patch_surface[at(p)] + 1) continue;
+      face.name = mesh.patch_names[at(p)];
+      std::vector<LocalIndex> both;
+      std::ranges::set_union(face.solids, of_mesh.faces[at(p)].solids, std::back_inserter(both));
+      face.solids = std::move(both);
+    }
   }
   return described;
 }

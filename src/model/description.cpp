@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
 
 namespace tessera::model {
 namespace {
@@ -49,6 +50,12 @@ bool is_sound(const ModelDescription& model)
 }
 
 }  // namespace
+
+std::string FaceDescription::patch_name() const
+{
+  if (!name.empty()) return name;
+  return mesh::default_patch_name(patch == kNoIndex ? number - 1 : patch);
+}
 
 void EdgeDescription::add_line(const Vec3& a, const Vec3& b)
 {

@@ -18,14 +18,21 @@ namespace {
 // Below this part of the square on its longest side a triangle's normal is rounding.
 constexpr double kLeastArea = 1e-8;
 
-std::vector<LocalIndex> rows_that_fit_all(const std::vector<Criterion>& criteria)
+// Of several rows with one number, all have to fit: a name is that of a number.
+std::vector<LocalIndex> numbers_that_fit_all(const std::vector<Criterion>& criteria,
+                                             const PartKind& kind)
 {
-  std::vector<LocalIndex> rows;
-  for (std::size_t row = 0; row < criteria.front().fits.size(); ++row) {
+  std::map<LocalIndex, bool> fits_all;
+  for (std::size_t row = 0; row < kind.numbers.size(); ++row) {
     const auto fits = [&](const Criterion& criterion) { return criterion.fits[row]; };
-    if (std::ranges::all_of(criteria, fits)) rows.push_back(static_cast<LocalIndex>(row));
+    bool& all = fits_all.try_emplace(kind.numbers[row], true).first->second;
+    all = all && std::ranges::all_of(criteria, fits);
   }
-  return rows;
+  std::vector<LocalIndex> numbers;
+  for (const auto& [number, all] : fits_all) {
+    if (all) numbers.push_back(number);
+  }
+  return numbers;
 }
 
 // Of a criterion that nothing fits what there is; else what fits each of them.
@@ -33,10 +40,7 @@ std::vector<LocalIndex> rows_that_fit_all(const std::vector<Criterion>& criteria
 {
   std::string each;
   for (const Criterion& criterion : criteria) {
-    std::vector<LocalIndex> numbers;
-    for (std::size_t row = 0; row < criterion.fits.size(); ++row) {
-      if (criterion.fits[row]) numbers.push_back(kind.numbers[row]);
-    }
+    const std::vector<LocalIndex> numbers = numbers_that_fit_all({criterion}, kind);
     if (numbers.empty()) {
       throw ConfigError(
           fmt::format("no {} has {}; {}", kind.word, criterion.text, criterion.what_there_is));
@@ -47,39 +51,35 @@ std::vector<LocalIndex> rows_that_fit_all(const std::vector<Criterion>& criteria
   throw ConfigError(fmt::format("no {} has all that is asked for: {}", kind.word, each));
 }
 
-// Names of one kind of part, row by row.
+// Names of one kind of part.
 class Naming {
  public:
-  explicit Naming(PartKind kind) : kind_(std::move(kind)), names_(kind_.numbers.size()) {}
+  explicit Naming(PartKind kind) : kind_(std::move(kind)) {}
 
   void add(const std::string& name, const std::vector<Criterion>& criteria)
   {
-    const std::vector<LocalIndex> rows = rows_that_fit_all(criteria);
-    if (rows.empty()) fail_without_fit(criteria, kind_);
-    for (const LocalIndex row : rows) {
-      std::string& given = names_[at(row)];
-      if (!given.empty()) {
-        throw ConfigError(
-            fmt::format("{} {} has been named \"{}\" by an entry before; it can be "
-                        "chosen by one entry only",
-                        kind_.word, kind_.numbers[at(row)], given));
-      }
-      given = name;
+    const std::vector<LocalIndex> numbers = numbers_that_fit_all(criteria, kind_);
+    if (numbers.empty()) fail_without_fit(criteria, kind_);
+    for (const LocalIndex number : numbers) {
+      const auto [given, is_new] = names_.emplace(number, name);
+      if (is_new) continue;
+      throw ConfigError(
+          fmt::format("{} {} has been named \"{}\" by an entry before; it can be "
+                      "chosen by one entry only",
+                      kind_.word, number, given->second));
     }
   }
 
   [[nodiscard]] std::vector<NumberedName> result() const
   {
     std::vector<NumberedName> named;
-    for (std::size_t row = 0; row < names_.size(); ++row) {
-      if (!names_[row].empty()) named.push_back({kind_.numbers[row], names_[row]});
-    }
+    for (const auto& [number, name] : names_) named.push_back({number, name});
     return named;
   }
 
  private:
   PartKind kind_;
-  std::vector<std::string> names_;  // Empty: not named.
+  std::map<LocalIndex, std::string> names_{};  // By number.
 };
 
 // Patches that have a name from the case become one row, at the place of the first of them. Others

@@ -80,6 +80,24 @@ class Info(program.ProgramTest):
         between = {face["name"]: face["solids"] for face in core["faces"]}
         self.assertEqual(between, {"core_skin": [1, 2], "shell_skin": [2, 3], "outside": [3]})
 
+    def test_a_surface_of_csg_is_a_face_of_each_solid_that_has_a_part_of_it(self):
+        self.write("blocks.geo", """algebraic3d
+solid slab = plane (0, 0, 0; 0, -1, 0) and plane (0, 1, 0; 0, 1, 0)
+         and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);
+solid left = slab and plane (0, 0, 0; -1, 0, 0) and plane (1, 0, 0; 1, 0, 0);
+solid right = slab and not plane (1, 0, 0; 1, 0, 0) and plane (3, 0, 0; 1, 0, 0);
+tlo left;
+tlo right;
+""")
+        found = self.figures(self.folder / "blocks.geo")
+        self.assertEqual([touch["num_faces"] for touch in found["touches"]], [1])
+        self.assertAlmostEqual(found["touches"][0]["area"], 1.0)
+        self.assertEqual(sorted(round(face["area"], 6) for face in found["faces"]), [1.0] * 7 + [2.0] * 4)
+        self.assertEqual(sorted(map(tuple, (face["solids"] for face in found["faces"]))),
+                         [(1,)] * 5 + [(1, 2)] + [(2,)] * 5)
+        self.run_program("mesh", "blocks.geo", "--size", "0.5", "--output", "mesh")
+        self.assertEqual(program.figures(self.folder / "mesh")["patch_names"], [face["patch"] for face in found["faces"]])
+
     def test_names_and_colours_of_a_step_file(self):
         text = (GEOMETRY / "bracket.step").read_text()
         face = re.search(r"(#\d+)\s*=\s*ADVANCED_FACE\(''", text)

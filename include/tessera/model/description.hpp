@@ -10,9 +10,11 @@
 
 namespace tessera::model {
 
-/// @brief One face of a model.
+/// @brief One face of a model. A surface of CSG may be several: one each between two solids, or
+/// outside of one.
 struct FaceDescription {
   LocalIndex number = 0;           ///< The model's surface number plus 1.
+  LocalIndex patch = kNoIndex;     ///< Of the mesh; kNoIndex: the surface number.
   LocalIndex piece_of = kNoIndex;  ///< Number before `[[embed]]` of the face that it is a piece
                                    ///< of; 0: it was put in. kNoIndex: nothing was.
   std::string name{};              ///< Empty: the file has none.
@@ -25,10 +27,13 @@ struct FaceDescription {
   /// @brief The number that users know it by: before `[[embed]]`; 0: it was put in.
   [[nodiscard]] LocalIndex given_number() const { return piece_of == kNoIndex ? number : piece_of; }
 
+  /// @brief What the mesh calls it unless the case gives a name.
+  [[nodiscard]] std::string patch_name() const;
+
   static auto fields(auto& self)
   {
-    return std::tie(self.number, self.piece_of, self.name, self.colour, self.area, self.solids,
-                    self.is_inside);
+    return std::tie(self.number, self.patch, self.piece_of, self.name, self.colour, self.area,
+                    self.solids, self.is_inside);
   }
 };
 
@@ -66,7 +71,7 @@ struct SolidDescription {
 /// @brief What people want to know of a model before they mesh it, with triangles to draw it.
 struct ModelDescription {
   std::vector<SolidDescription> solids{};
-  std::vector<FaceDescription> faces{};  ///< By number.
+  std::vector<FaceDescription> faces{};  ///< By number, each solid's part of it by itself.
   std::vector<EdgeDescription> edges{};  ///< By number.
   std::vector<double> vertex_xyz{};      ///< Shape (num_vertices, 3), file length unit.
   /// Shape (num_triangles, 3). Normals point out of the solid; of two, out of the lower one.

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/name_patterns.hpp"
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -96,7 +97,7 @@ std::string name_of(const model::FaceDescription& face, const model::NamedParts&
 {
   const auto given = std::ranges::find(named.faces, face.number, &model::NumberedName::number);
   if (given != named.faces.end()) return given->name;
-  return face.name.empty() ? mesh::default_patch_name(face.number - 1) : face.name;
+  return face.patch_name();
 }
 
 surface::KeptParts kept_parts(const model::ModelDescription& described,
@@ -138,12 +139,13 @@ void name_pieces(const model::ModelDescription& described, const config::Case& g
   for (const auto& [number, name] : name_of_number) named.faces.push_back({number, name});
 }
 
-// Centroid of some faces, file length unit.
-Vec3 centroid_of(const model::ModelDescription& model, const std::vector<LocalIndex>& faces)
+// Centroid of the faces with some surface numbers, file length unit.
+Vec3 centroid_of(const model::ModelDescription& model, const std::vector<LocalIndex>& surfaces)
 {
   std::vector<std::array<Vec3, 3>> triangles;
   for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
-    if (std::ranges::find(faces, model.triangle_face[t]) == faces.end()) continue;
+    const LocalIndex surface = model.faces[at(model.triangle_face[t])].number - 1;
+    if (std::ranges::find(surfaces, surface) == surfaces.end()) continue;
     const auto corner = [&](std::size_t c) {
       return point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
     };
@@ -163,6 +165,7 @@ std::vector<surface::PeriodicPatches> periodic_patches(const model::ModelDescrip
       for (const model::FaceDescription& face : described.faces) {
         if (matches_pattern(pattern, name_of(face, named))) faces.push_back(face.number - 1);
       }
+      sort_unique(faces);
       return faces;
     };
     surface::PeriodicPatches patches{.from = faces_of(side.from), .to = faces_of(side.to)};

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "netgen/csg/access.hpp"
+#include "netgen/csg/patches.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -24,31 +26,60 @@ class Describer {
       described_.solids.push_back({.name = name_of_solid(geometry_, solid)});
     }
     described_.vertex_xyz = mesh_.vertex_xyz.to_vector();
+    add_faces();
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) add(f);
-    number_faces();
     return std::move(described_);
   }
 
  private:
+  // Pieces of a patch that are apart are one face.
+  void add_faces()
+  {
+    std::map<PatchKey, LocalIndex> patches;  // One of each.
+    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) patches.emplace(key_of(f), patch_of(f));
+    for (const auto& [key, patch] : patches) {
+      const auto row = static_cast<LocalIndex>(described_.faces.size());
+      const std::string& name = mesh_.patch_names[at(patch)];
+      described_.faces.push_back(
+          {.number = key[0] + 1,
+           .patch = row,
+           .name = name == mesh::default_patch_name(row) ? std::string() : name});
+      row_of_.emplace(key, row);
+    }
+  }
+
   void add(LocalIndex f)
   {
     const LocalIndex* const v = &mesh_.face_vertices[3 * at(f)];
     std::array<LocalIndex, 3> vertices{v[0], v[1], v[2]};
     const auto [a, b, c] =
         std::array{mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
-    const LocalIndex out_of = solid_of(surface_.face_domains[at(f)][0]);
-    const LocalIndex into = solid_of(surface_.face_domains[at(f)][1]);
+    const auto [out_of, into] = solids_of(f);
     const bool is_out_of_lower = out_of > 0 && (into == 0 || out_of < into);
     if (!is_out_of_lower) std::swap(vertices[1], vertices[2]);
     described_.triangle_vertices.insert(described_.triangle_vertices.end(), vertices.begin(),
                                         vertices.end());
-    const LocalIndex number = mesh_.patch_surface[at(mesh_.face_patch[at(f)])];
-    described_.triangle_face.push_back(number);
-    model::FaceDescription& face = faces_[number];
+    const LocalIndex row = row_of_.at(key_of(f));
+    described_.triangle_face.push_back(row);
+    model::FaceDescription& face = described_.faces[at(row)];
     face.area += triangle_area(a, b, c);
     const double volume = tet_volume(mesh_.position(0), a, b, c);
     add_side(out_of, volume, face);
     add_side(into, -volume, face);
+  }
+
+  [[nodiscard]] LocalIndex patch_of(LocalIndex f) const { return mesh_.face_patch[at(f)]; }
+
+  [[nodiscard]] PatchKey key_of(LocalIndex f) const
+  {
+    const auto [out_of, into] = solids_of(f);
+    return key_of_patch(mesh_.patch_surface[at(patch_of(f))], out_of, into);
+  }
+
+  [[nodiscard]] std::array<LocalIndex, 2> solids_of(LocalIndex f) const
+  {
+    const auto [out_of, into] = surface_.face_domains[at(f)];
+    return {solid_of(out_of), solid_of(into)};
   }
 
   // 0: none.
@@ -65,23 +96,10 @@ class Describer {
     if (place == face.solids.end() || *place != solid) face.solids.insert(place, solid);
   }
 
-  // Surfaces that bound nothing are no faces.
-  void number_faces()
-  {
-    std::map<LocalIndex, LocalIndex> rows;
-    for (auto& [number, face] : faces_) {
-      rows[number] = static_cast<LocalIndex>(described_.faces.size());
-      face.number = number + 1;
-      face.name = name_unless_default(geometry_.GetSurface(number)->GetBCName());
-      described_.faces.push_back(std::move(face));
-    }
-    for (LocalIndex& face : described_.triangle_face) face = rows.at(face);
-  }
-
   const ::netgen::CSGeometry& geometry_;
   const surface::CoarseSurface& surface_;
   const mesh::CoarseMesh& mesh_ = surface_.mesh;
-  std::map<LocalIndex, model::FaceDescription> faces_{};  // By the model's surface number.
+  std::map<PatchKey, LocalIndex> row_of_{};  // Of faces.
   model::ModelDescription described_{};
 };
 

@@ -323,25 +323,42 @@ coarse::CadSurface CsgModel::triangles_for_fit(double size) const
   return cad;
 }
 
+using Line = std::pair<LocalIndex, LocalIndex>;  // Vertices, ascending.
+
+// Rows of the faces that lines have triangles of.
+std::map<Line, std::set<LocalIndex>> faces_at_lines(const model::ModelDescription& described)
+{
+  std::map<Line, std::set<LocalIndex>> faces;
+  for (std::size_t t = 0; t < described.triangle_face.size(); ++t) {
+    const LocalIndex* const v = &described.triangle_vertices[3 * t];
+    for (std::size_t c = 0; c < 3; ++c) {
+      faces[std::minmax(v[c], v[(c + 1) % 3])].insert(described.triangle_face[t]);
+    }
+  }
+  return faces;
+}
+
 // A segment stands once for each side.
 void CsgModel::add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& to) const
 {
-  std::map<LocalIndex, std::set<std::pair<LocalIndex, LocalIndex>>> lines;
+  std::map<LocalIndex, std::set<Line>> lines;
   for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
     const LocalIndex curve = mesh.segment_curve[at(s)];
     const LocalIndex* const ends = &mesh.segment_vertices[2 * at(s)];
     if (curve != kNoIndex) lines[curve].insert(std::minmax(ends[0], ends[1]));
   }
+  const std::map<Line, std::set<LocalIndex>> faces = faces_at_lines(to);
   for (const auto& [curve, of_curve] : lines) {
     model::EdgeDescription& edge = to.edges.emplace_back();
     edge.number = named_curve(curve).number;
-    for (const auto& [a, b] : of_curve) edge.add_line(mesh.position(a), mesh.position(b));
-    const auto num_surfaces = static_cast<LocalIndex>(geometry_->GetNSurf());
-    for (std::size_t f = 0; f < to.faces.size(); ++f) {
-      const LocalIndex surface = to.faces[f].number - 1;
-      if (surface != curve / num_surfaces && surface != curve % num_surfaces) continue;
-      edge.faces.push_back(static_cast<LocalIndex>(f));
+    std::set<LocalIndex> beside;
+    for (const Line& line : of_curve) {
+      edge.add_line(mesh.position(line.first), mesh.position(line.second));
+      if (const auto found = faces.find(line); found != faces.end()) {
+        beside.insert(found->second.begin(), found->second.end());
+      }
     }
+    edge.faces.assign(beside.begin(), beside.end());
   }
 }
 

@@ -41,9 +41,7 @@ void separate_patches(mesh::CoarseMesh& mesh)
     const auto [found, is_new] = patch_of_piece.emplace(pieces.find(number(f, 0)), patch);
     if (is_new && is_taken[at(patch)]) {
       found->second = mesh.num_patches();
-      const std::string name = mesh.patch_names[at(patch)];
-      mesh.patch_names.push_back(
-          name == mesh::default_patch_name(patch) ? mesh::default_patch_name(found->second) : name);
+      mesh.patch_names.push_back(mesh.patch_names[at(patch)]);
       mesh.patch_surface.push_back(mesh.patch_surface[at(patch)]);
     }
     is_taken[at(patch)] = true;

@@ -12,7 +12,7 @@ namespace tessera::netgen {
 /// @brief The patch where a surface is between two solids (from 1), or outside (0) of one.
 [[nodiscard]] PatchKey key_of_patch(LocalIndex surface, LocalIndex solid, LocalIndex other);
 
-/// @brief Gives every connected piece of a patch a patch of its own. Local.
+/// @brief Gives every connected piece of a patch a patch of its own, with the same name. Local.
 void separate_patches(mesh::CoarseMesh& mesh);
 
 }  // namespace tessera::netgen

@@ -74,6 +74,19 @@ TEST(FindNamedParts, EachCriterionChoosesFaces)
   EXPECT_EQ(faces_of({.box_min = {0, 0, 0}, .box_max = {1, 1, 1}}), (Numbers{1, 2, 4}));
 }
 
+// A surface of CSG that two solids have a part of each.
+TEST(FindNamedParts, ANumberIsNamedIfAllThatHaveItFit)
+{
+  ModelDescription model = two_cubes();
+  model.faces[1].number = 1;
+  const auto numbers_of = [&](const FaceCriteria& of) {
+    return find_named_parts(model, std::vector<PartName>{{"it", of}}, 1.0).faces;
+  };
+  EXPECT_EQ(numbers_of({.faces = {1}}), (std::vector<NumberedName>{{1, "it"}}));
+  EXPECT_EQ(numbers_of({.pattern = "in_*"}), (std::vector<NumberedName>{{1, "it"}}));
+  EXPECT_EQ(numbers_of({.colour = "#FF0000"}), (std::vector<NumberedName>{{7, "it"}}));
+}
+
 TEST(FindNamedParts, ANormalIsThatOfAllTrianglesWithinTheTolerance)
 {
   EXPECT_EQ(faces_of({.normal = {1, 0, 0}}), (Numbers{4}));
