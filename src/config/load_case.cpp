@@ -311,6 +311,11 @@ void complete_layers(Case& loaded, const std::string& where)
   for (layers::LayerOptions& layer : loaded.layers) {
     if (layers::is_complete(layer)) continue;
     if (loaded.size.target > 0.0) layer.count = layers::count_up_to(layer, loaded.size.target);
+    if (layer.count > layers::kMostLayers) {
+      fail(where, fmt::format("[[layer]] of \"{}\" needs more than {} layers to lead up to "
+                              "size.target = {:g}; choose a larger first or growth, or give count",
+                              layer.patch, layers::kMostLayers, loaded.size.target));
+    }
     if (layer.count > 0) continue;
     fail(where, fmt::format("[[layer]] of \"{}\" has neither count nor thickness, and {}; give "
                             "one of them",

@@ -42,7 +42,9 @@ class WallChoice {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const auto patch = at(mesh.face_patch[f]);
       if (faces[f].tets[1] != kNoIndex) obstacles_[patch] = kInnerObstacle;
-      bodies_behind_[patch].insert(mesh.body(mesh.tet_material[at(faces[f].tets[0])]));
+      for (const LocalIndex tet : faces[f].tets) {
+        if (tet != kNoIndex) bodies_behind_[patch].insert(mesh.body(mesh.tet_material[at(tet)]));
+      }
     }
     for (LocalIndex p = 0; p < static_cast<LocalIndex>(mesh.images.patch_origin.size()); ++p) {
       const LocalIndex origin = mesh.images.patch_origin[at(p)];
@@ -77,6 +79,12 @@ class WallChoice {
                     entry.patch, entry.side.empty() ? "" : " in \"" + entry.side + "\""));
   }
 
+  // With _plus or _minus, if it is a side of a split.
+  [[nodiscard]] const std::string& final_name(std::size_t patch) const
+  {
+    return final_names_[patch];
+  }
+
  private:
   static constexpr const char* kInnerObstacle =
       "inside of the model; layers there are for the sides of a [[split]], and between two solids "
@@ -100,9 +108,14 @@ class WallChoice {
   [[nodiscard]] std::string obstacle_of(LocalIndex patch, const LayerOptions& entry,
                                         const std::vector<LocalIndex>& solids) const
   {
-    if (!obstacles_[at(patch)].empty()) return obstacles_[at(patch)];
-    if (entry.side.empty()) return mesh_.images.is_joint(patch) ? kInnerObstacle : "";
-    if (std::ranges::includes(solids, bodies_behind_[at(patch)])) return "";
+    const std::string& obstacle = obstacles_[at(patch)];
+    if (entry.side.empty() && obstacle.empty())
+      return mesh_.images.is_joint(patch) ? kInnerObstacle : "";
+    const std::set<LocalIndex>& behind = bodies_behind_[at(patch)];
+    const auto is_named = [&](LocalIndex body) { return std::ranges::binary_search(solids, body); };
+    const bool is_beside = obstacle.empty() ? std::ranges::all_of(behind, is_named)
+                                            : std::ranges::any_of(behind, is_named);
+    if (entry.side.empty() || is_beside) return obstacle;
     return fmt::format("beside other solids than \"{}\"", entry.side);
   }
 
@@ -112,6 +125,12 @@ class WallChoice {
   std::vector<std::set<LocalIndex>> bodies_behind_;  // Of each patch.
   std::vector<std::string> obstacles_;               // Of each patch; empty: it can be a wall.
 };
+
+std::string text_of(const LayerOptions& entry)
+{
+  return entry.side.empty() ? fmt::format("\"{}\"", entry.patch)
+                            : fmt::format("\"{}\" in \"{}\"", entry.patch, entry.side);
+}
 
 // Which entry each patch has, or kNoIndex.
 std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
@@ -124,9 +143,9 @@ std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
     for (std::size_t p = 0; p < walls.size(); ++p) {
       if (!walls[p]) continue;
       if (entries[p] != kNoIndex) {
-        throw ConfigError(
-            fmt::format("patch \"{}\" fits \"{}\" and \"{}\"; it must fit one entry only",
-                        mesh.patch_names[p], options[at(entries[p])].patch, options[i].patch));
+        throw ConfigError(fmt::format("patch \"{}\" fits {} and {}; it must fit one entry only",
+                                      choice.final_name(p), text_of(options[at(entries[p])]),
+                                      text_of(options[i])));
       }
       entries[p] = static_cast<LocalIndex>(i);
     }
@@ -141,8 +160,9 @@ void require_thinner_than_model(const mesh::CoarseMesh& mesh, std::span<const La
     if (thickness(one) <= diagonal) continue;
     throw ConfigError(fmt::format(
         "the {} layers of \"{}\" are {:g} thick, and the diagonal of the model's box is "
-        "{:g}; choose a smaller first, growth or count",
-        num_layers(one), one.patch, thickness(one), diagonal));
+        "{:g}; choose a smaller {}",
+        num_layers(one), one.patch, thickness(one), diagonal,
+        one.thickness > 0.0 ? "thickness" : "first, growth or count"));
   }
 }
 

@@ -34,6 +34,12 @@ std::string defect_of(const LayerOptions& options)
     return fmt::format("thickness = {:g} is less than first = {:g}; must be at least that",
                        options.thickness, options.first);
   }
+  if (num_layers(options) > kMostLayers) {
+    return fmt::format(
+        "thickness = {:g} needs more than {} layers that begin with first = {:g} and "
+        "grow by {:g}",
+        options.thickness, kMostLayers, options.first, options.growth);
+  }
   std::vector<double> ends = layer_ends(options);
   ends.insert(ends.begin(), 0.0);
   if (std::ranges::adjacent_find(ends, std::greater_equal()) == ends.end()) return {};
@@ -52,7 +58,7 @@ int count_up_to(const LayerOptions& options, double size)
   if (options.first >= wanted) return 1;
   if (options.growth == 1.0) return 0;
   const double count = 1.0 + std::log(wanted / options.first) / std::log(options.growth);
-  return static_cast<int>(std::lround(std::min<double>(count, kMostLayers)));
+  return static_cast<int>(std::lround(std::min<double>(count, kMostLayers + 1)));
 }
 
 int num_layers(const LayerOptions& options)
@@ -64,7 +70,7 @@ int num_layers(const LayerOptions& options)
     return std::abs(height_of(next, options.growth) - wanted)
            < std::abs(height_of(next - 1, options.growth) - wanted);
   };
-  while (count < kMostLayers && is_nearer(count + 1)) ++count;
+  while (count <= kMostLayers && is_nearer(count + 1)) ++count;
   return count;
 }
 

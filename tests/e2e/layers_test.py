@@ -451,12 +451,13 @@ class BetweenSolids(LayersTest):
         box = "plane (0, 0, {}; 0, 0, -1) and plane (0, 0, 0; -1, 0, 0) and plane (2, 1, 1; 1, 0, 0)\n  and plane (0, 0, 0; 0, -1, 0) and plane (2, 1, 1; 0, 1, 0) and plane (2, 1, {}; 0, 0, 1)"
         self.write("model.geo", f"algebraic3d\nsolid block = {box.format(-0.5, 0)};\nsolid water = {box.format(0, 1)};\ntlo water;\ntlo block;\n")
         plate = "[[embed]]\nname = 'plate'\npolygon = [[1, 0, 0], [1, 1, 0], [1, 1, 0.5], [1, 0, 0.5]]\n[[split]]\npatch = 'plate'\n"
-        for subdomains in (1, 5):
-            with self.subTest(subdomains=subdomains):
+        for subdomains, count in ((1, 1), (1, 2), (5, 2)):
+            with self.subTest(subdomains=subdomains, count=count):
                 self.checked(self.mesh(self.write(
                     "case.toml",
                     f"geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = {subdomains}\nrefine.levels = 1\n"
-                    f"{program.NO_PAGE}{plate}[[layer]]\npatch = '*'\nside = 'water'\nfirst = 0.01\ncount = 2\n"), f"plate_{subdomains}"))
+                    f"{program.NO_PAGE}{plate}[[layer]]\npatch = '*'\nside = 'water'\nfirst = 0.01\ncount = {count}\n"),
+                    f"plate_{subdomains}_{count}"))
         self.write("model.geo", (
             "algebraic3d\nsolid a = orthobrick (0.3, 0.3, 0.3; 0.5, 0.7, 0.7);\nsolid b = orthobrick (0.5, 0.3, 0.3; 0.7, 0.7, 0.7);\n"
             "solid water = orthobrick (0, 0, 0; 1, 1, 1) and not a and not b;\ntlo a;\ntlo b;\ntlo water;\n"))

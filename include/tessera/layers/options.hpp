@@ -36,11 +36,12 @@ inline constexpr int kMostLayers = 100;
 [[nodiscard]] bool is_complete(const LayerOptions& options);
 
 /// @brief The number of layers that lead up to tets of edge length `size`: these are about as high
-/// as one more layer would be. 0 if layers do not grow, and so never get there. Local.
+/// as one more layer would be. 0 if layers do not grow, and so never get there; above kMostLayers
+/// if it takes too many. Local.
 [[nodiscard]] int count_up_to(const LayerOptions& options, double size);
 
-/// @brief Number of layers: `count`, or what comes nearest to `thickness`, at least one. Local.
-/// @pre is_complete(), here and below.
+/// @brief Number of layers: `count`, or what comes nearest to `thickness`, at least one and
+/// at most one more than kMostLayers. Local. @pre is_complete(), here and below.
 [[nodiscard]] int num_layers(const LayerOptions& options);
 
 /// @brief Thickness of all num_layers() together, output length unit. Local.

@@ -174,10 +174,11 @@ struct LayeredPiece {
   std::vector<LocalIndex> tet_of_prism{};  ///< Shape (num_tets): from 0; above it, the tet is of
                                            ///< the same prism as the one before it.
 
-  /// @brief Whether the last point of a column is its own in this piece.
+  /// @brief Whether the last point of a column is its own in this piece: ends of others come before
+  /// its points.
   [[nodiscard]] bool has_own_end(std::size_t column) const
   {
-    return end[column] == first_point[column + 1] - 1;
+    return end[column] >= first_point[column];
   }
 };
 

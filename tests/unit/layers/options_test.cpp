@@ -25,8 +25,12 @@ TEST(LayerOptions, AThicknessTakesTheNumberThatComesNearest)
   EXPECT_EQ(num_layers(options), 3);
   options.thickness = 0.36;
   EXPECT_EQ(num_layers(options), 4);
-  options.thickness = 1e9;
+  options.thickness = 10.0;
   EXPECT_EQ(num_layers(options), kMostLayers);
+  EXPECT_EQ(defect_of(options), "");
+  options.thickness = 1e9;
+  EXPECT_EQ(num_layers(options), kMostLayers + 1);
+  EXPECT_NE(defect_of(options).find("more than 100 layers"), std::string::npos);
 }
 
 TEST(LayerOptions, LeadUpToTheSizeInside)
@@ -38,6 +42,8 @@ TEST(LayerOptions, LeadUpToTheSizeInside)
   const double last = options.first * std::pow(options.growth, options.count - 1);
   EXPECT_NEAR(last * options.growth, 0.816, 0.1 * 0.816);
   EXPECT_EQ(count_up_to(options, 0.1), 1);
+  options.growth = 1.001;
+  EXPECT_GT(count_up_to(options, 1.0), kMostLayers);
   options.growth = 1.0;
   EXPECT_EQ(count_up_to(options, 1.0), 0);
 }
