@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/base/union_find.hpp"
 
 namespace tessera::cut {
@@ -60,8 +61,7 @@ class Sheets {
   {
     std::vector<LocalIndex> solids = model_.faces[at(welded_.triangles[at(triangle)].face)].solids;
     for (LocalIndex& solid : solids) --solid;
-    std::ranges::sort(solids);
-    solids.erase(std::ranges::unique(solids).begin(), solids.end());
+    sort_unique(solids);
     return solids;
   }
 

@@ -148,51 +148,6 @@ inline void set_close_edges(::netgen::MeshingParameters& parameters, double fact
   return first + segment.epgeominfo[end].dist * (last - first);
 }
 
-/// The plane z = 0, which looks up.
-class PlaneGeometry final : public ::netgen::NetgenGeometry {
- public:
-  // NOLINTBEGIN(readability-identifier-naming): NETGEN's
-  ::netgen::PointGeomInfo ProjectPoint(int /*surface*/, ::netgen::Point<3>& point) const override
-  {
-    point(2) = 0.0;
-    return {};
-  }
-  bool ProjectPointGI(int /*surface*/, ::netgen::Point<3>& point,
-                      ::netgen::PointGeomInfo& /*info*/) const override
-  {
-    point(2) = 0.0;
-    return true;
-  }
-  ::netgen::Vec<3> GetNormal(int /*surface*/, const ::netgen::Point<3>& /*point*/,
-                             const ::netgen::PointGeomInfo* /*info*/) const override
-  {
-    return {0.0, 0.0, 1.0};
-  }
-  // NOLINTEND(readability-identifier-naming)
-};
-
-[[nodiscard]] inline ::netgen::Meshing2 plane_mesher(const ::netgen::MeshingParameters& parameters,
-                                                     const ::netgen::Box<3>& box)
-{
-  static const PlaneGeometry plane;
-  return ::netgen::Meshing2(plane, parameters, box);
-}
-
-class PlaneOptimizer final : public ::netgen::MeshOptimize2d {
- public:
-  explicit PlaneOptimizer(::netgen::Mesh& of) : MeshOptimize2d(on_plane(of)) {}
-
-  void swap_edges(bool by_size) { EdgeSwapping(by_size ? 1 : 0); }
-  void smooth(const ::netgen::MeshingParameters& parameters) { ImproveMesh(parameters); }
-
- private:
-  static ::netgen::Mesh& on_plane(::netgen::Mesh& of)
-  {
-    of.SetGeometry(std::make_shared<PlaneGeometry>());
-    return of;
-  }
-};
-
 }  // namespace tessera::netgen
 
 #else
@@ -269,23 +224,6 @@ inline void set_close_edges(::netgen::MeshingParameters& /*parameters*/, double 
 {
   return segment.epgeominfo[end].dist;
 }
-
-[[nodiscard]] inline ::netgen::Meshing2 plane_mesher(const ::netgen::MeshingParameters& parameters,
-                                                     const ::netgen::Box<3>& box)
-{
-  return ::netgen::Meshing2(parameters, box);
-}
-
-class PlaneOptimizer final : public ::netgen::MeshOptimize2d {
- public:
-  explicit PlaneOptimizer(::netgen::Mesh& of) : mesh_(of) {}
-
-  void swap_edges(bool by_size) { EdgeSwapping(mesh_, by_size ? 1 : 0); }
-  void smooth(const ::netgen::MeshingParameters& parameters) { ImproveMesh(mesh_, parameters); }
-
- private:
-  ::netgen::Mesh& mesh_;
-};
 
 }  // namespace tessera::netgen
 

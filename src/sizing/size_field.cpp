@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/morton_order.hpp"
 
@@ -82,7 +81,6 @@ struct SizeField::Parts {
   double least = 0.0;
   double greatest = kInfinity;
   double steepest = 0.0;
-  Hash128 field_content{};
   std::optional<FieldSizes> field{};
   std::vector<RegionSizes> regions{};
 
@@ -112,7 +110,6 @@ SizeField::SizeField(const SizeOptions& options, const mesh::CoarseMesh& coarse,
   }
   if (field != nullptr) {
     parts->field = field_sizes(options, coarse, *field);
-    parts->field_content = hash_bytes(to_bytes(*field));
     parts->steepest = std::max(parts->steepest, options.grading);
   }
   parts_ = std::move(parts);
@@ -140,7 +137,5 @@ std::vector<double> SizeField::at(std::span<const double> xyz) const
 }
 
 double SizeField::steepest() const noexcept { return parts_->steepest; }
-
-Hash128 SizeField::field_content() const noexcept { return parts_->field_content; }
 
 }  // namespace tessera::sizing

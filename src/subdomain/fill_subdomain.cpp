@@ -145,7 +145,7 @@ RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine
 }
 
 // What layers stand on, without the tets and the vertices inside, which are many.
-mesh::Piece surface_of(const mesh::Piece& piece)
+mesh::Piece without_tets(const mesh::Piece& piece)
 {
   const auto end_of_skin = piece.vertex_xyz.begin() + 3 * std::ptrdiff_t{piece.num_skin_vertices()};
   return {.subdomain = piece.subdomain,
@@ -162,7 +162,7 @@ mesh::Piece surface_of(const mesh::Piece& piece)
 // positive are folds, whatever has filled the piece.
 void measure_layers(const LayerTables& tables, FilledPiece& filled)
 {
-  const LayeredPiece layered = with_layers(surface_of(filled.piece), tables);
+  const LayeredPiece layered = with_layers(without_tets(filled.piece), tables);
   PieceSummary& summary = filled.result.summary;
   for (LocalIndex t = 0; t < layered.piece.num_tets(); ++t) {
     const auto& [a, b, c, d] = layered.piece.corners(t);

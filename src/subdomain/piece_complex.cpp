@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -24,8 +25,7 @@ std::vector<mesh::HostPoint> names_of(const std::vector<const mesh::Piece*>& pie
       names.push_back(piece->skin_point(v));
     }
   }
-  std::ranges::sort(names);
-  names.erase(std::ranges::unique(names).begin(), names.end());
+  sort_unique(names);
   return names;
 }
 

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "tessera/base/hash.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/point_field.hpp"
 #include "tessera/sizing/options.hpp"
@@ -45,10 +44,6 @@ class SizeField {
   /// @brief Largest growth of the size per length; 0 if it is the same everywhere. In cells of the
   /// field with sharp angles it may grow faster. Local.
   [[nodiscard]] double steepest() const noexcept;
-
-  /// @brief Hash of all values, points and cells of the field, whatever files they stood in; zero
-  /// without a field. Local.
-  [[nodiscard]] Hash128 field_content() const noexcept;
 
  private:
   struct Parts;

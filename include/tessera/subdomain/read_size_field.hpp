@@ -12,8 +12,8 @@ namespace tessera::subdomain {
 [[nodiscard]] sizing::SizeField read_size_field(const sizing::SizeOptions& options,
                                                 const mesh::CoarseMesh& coarse);
 
-/// @brief Hash of what stands in the file `options.field`, as SizeField::field_content(); zero if
-/// none is given. Local. @throws InputError as io::read_point_field().
+/// @brief Hash of all values, points and cells of the field in the file `options.field`, whatever
+/// files they stand in; zero if none is given. Local. @throws InputError as io::read_point_field().
 [[nodiscard]] Hash128 size_field_content(const sizing::SizeOptions& options);
 
 }  // namespace tessera::subdomain

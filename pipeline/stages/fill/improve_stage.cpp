@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/subdomain/core_figures.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
@@ -75,8 +76,7 @@ RegionsByPhase pieces_of_phases(const improve::SeamRegions& regions, const Regio
     for (const LocalIndex region : wanted[phase]) {
       std::ranges::copy(regions.subdomains_of(region), std::back_inserter(some));
     }
-    std::ranges::sort(some);
-    some.erase(std::ranges::unique(some).begin(), some.end());
+    sort_unique(some);
   }
   return pieces;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,8 @@
 namespace tessera::netgen {
 namespace {
 
+using Line = std::pair<LocalIndex, LocalIndex>;  // Vertices, ascending.
+
 class Describer {
  public:
   Describer(const ::netgen::CSGeometry& geometry, const surface::CoarseSurface& surface)
@@ -20,7 +23,7 @@ class Describer {
   {
   }
 
-  model::ModelDescription run()
+  model::ModelDescription run(const std::function<std::string(LocalIndex)>& number_of_curve)
   {
     for (int solid = 0; solid < geometry_.GetNTopLevelObjects(); ++solid) {
       described_.solids.push_back({.name = name_of_solid(geometry_, solid)});
@@ -28,6 +31,7 @@ class Describer {
     described_.vertex_xyz = mesh_.vertex_xyz.to_vector();
     add_faces();
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) add(f);
+    add_edges(number_of_curve);
     return std::move(described_);
   }
 
@@ -96,6 +100,43 @@ class Describer {
     if (place == face.solids.end() || *place != solid) face.solids.insert(place, solid);
   }
 
+  // A segment stands once for each side.
+  void add_edges(const std::function<std::string(LocalIndex)>& number_of_curve)
+  {
+    std::map<LocalIndex, std::set<Line>> lines;
+    for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
+      const LocalIndex curve = mesh_.segment_curve[at(s)];
+      const LocalIndex* const ends = &mesh_.segment_vertices[2 * at(s)];
+      if (curve != kNoIndex) lines[curve].insert(std::minmax(ends[0], ends[1]));
+    }
+    const std::map<Line, std::set<LocalIndex>> faces = faces_at_lines();
+    for (const auto& [curve, of_curve] : lines) {
+      model::EdgeDescription& edge = described_.edges.emplace_back();
+      edge.number = number_of_curve(curve);
+      std::set<LocalIndex> beside;
+      for (const Line& line : of_curve) {
+        edge.add_line(mesh_.position(line.first), mesh_.position(line.second));
+        if (const auto found = faces.find(line); found != faces.end()) {
+          beside.insert(found->second.begin(), found->second.end());
+        }
+      }
+      edge.faces.assign(beside.begin(), beside.end());
+    }
+  }
+
+  // Rows of the faces that lines have triangles of.
+  [[nodiscard]] std::map<Line, std::set<LocalIndex>> faces_at_lines() const
+  {
+    std::map<Line, std::set<LocalIndex>> faces;
+    for (std::size_t t = 0; t < described_.triangle_face.size(); ++t) {
+      const LocalIndex* const v = &described_.triangle_vertices[3 * t];
+      for (std::size_t c = 0; c < 3; ++c) {
+        faces[std::minmax(v[c], v[(c + 1) % 3])].insert(described_.triangle_face[t]);
+      }
+    }
+    return faces;
+  }
+
   const ::netgen::CSGeometry& geometry_;
   const surface::CoarseSurface& surface_;
   const mesh::CoarseMesh& mesh_ = surface_.mesh;
@@ -106,9 +147,10 @@ class Describer {
 }  // namespace
 
 model::ModelDescription describe_csg(const ::netgen::CSGeometry& geometry,
-                                     const surface::CoarseSurface& surface)
+                                     const surface::CoarseSurface& surface,
+                                     const std::function<std::string(LocalIndex)>& number_of_curve)
 {
-  return Describer(geometry, surface).run();
+  return Describer(geometry, surface).run(number_of_curve);
 }
 
 }  // namespace tessera::netgen

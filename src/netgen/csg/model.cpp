@@ -3,7 +3,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <csg.hpp>
@@ -105,7 +104,6 @@ class CsgModel final : public NetgenModel<geometry::LoadedModel> {
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
   [[nodiscard]] surface::CoarseSurface remesh_solids(const surface::CoarseOptions& options) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
-  void add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& to) const;
 
   std::string file_name_;
   std::string text_;
@@ -323,45 +321,6 @@ coarse::CadSurface CsgModel::triangles_for_fit(double size) const
   return cad;
 }
 
-using Line = std::pair<LocalIndex, LocalIndex>;  // Vertices, ascending.
-
-// Rows of the faces that lines have triangles of.
-std::map<Line, std::set<LocalIndex>> faces_at_lines(const model::ModelDescription& described)
-{
-  std::map<Line, std::set<LocalIndex>> faces;
-  for (std::size_t t = 0; t < described.triangle_face.size(); ++t) {
-    const LocalIndex* const v = &described.triangle_vertices[3 * t];
-    for (std::size_t c = 0; c < 3; ++c) {
-      faces[std::minmax(v[c], v[(c + 1) % 3])].insert(described.triangle_face[t]);
-    }
-  }
-  return faces;
-}
-
-// A segment stands once for each side.
-void CsgModel::add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& to) const
-{
-  std::map<LocalIndex, std::set<Line>> lines;
-  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
-    const LocalIndex curve = mesh.segment_curve[at(s)];
-    const LocalIndex* const ends = &mesh.segment_vertices[2 * at(s)];
-    if (curve != kNoIndex) lines[curve].insert(std::minmax(ends[0], ends[1]));
-  }
-  const std::map<Line, std::set<LocalIndex>> faces = faces_at_lines(to);
-  for (const auto& [curve, of_curve] : lines) {
-    model::EdgeDescription& edge = to.edges.emplace_back();
-    edge.number = named_curve(curve).number;
-    std::set<LocalIndex> beside;
-    for (const Line& line : of_curve) {
-      edge.add_line(mesh.position(line.first), mesh.position(line.second));
-      if (const auto found = faces.find(line); found != faces.end()) {
-        beside.insert(found->second.begin(), found->second.end());
-      }
-    }
-    edge.faces.assign(beside.begin(), beside.end());
-  }
-}
-
 model::ModelDescription CsgModel::describe(surface::SurfaceMesher mesher) const
 {
   constexpr double kSize = 0.1;       // In parts of the box diagonal.
@@ -371,9 +330,8 @@ model::ModelDescription CsgModel::describe(surface::SurfaceMesher mesher) const
   options.curvature = kCurvature;
   options.surface_mesher = mesher;
   const surface::CoarseSurface surface = mesh_whole(options);
-  model::ModelDescription described = describe_csg(*geometry_, surface);
-  add_edges(surface.mesh, described);
-  return described;
+  return describe_csg(*geometry_, surface,
+                      [this](LocalIndex curve) { return named_curve(curve).number; });
 }
 
 CsgSolids made_solids(const CsgModel& model, const std::string& file, const std::string& why)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/number/shared_vertices.hpp"
@@ -98,8 +99,7 @@ number::SurfaceList surface_of(const mesh::Piece& piece)
     }
   }
   std::ranges::sort(simplices.triangles);
-  std::ranges::sort(simplices.edges);
-  simplices.edges.erase(std::ranges::unique(simplices.edges).begin(), simplices.edges.end());
+  sort_unique(simplices.edges);
   return list;
 }
 

@@ -174,17 +174,6 @@ TEST(PointFields, SizesAtManyPointsAreThoseAtEachAlone)
   }
 }
 
-TEST(PointFields, ContentIsThatOfAllValues)
-{
-  TetField field = tet_field(2, linear);
-  const Hash128 content = size_field(field).field_content();
-  EXPECT_NE(content, Hash128{});
-  EXPECT_EQ(size_field(field).field_content(), content);
-  field.values.back() = std::nextafter(field.values.back(), 2.0);
-  EXPECT_NE(size_field(field).field_content(), content);
-  EXPECT_EQ(SizeField({.target = 1.0}, kuhn_cube(1)).field_content(), Hash128{});
-}
-
 TEST(PointFieldErrors, SizesThatAreNotPositiveAreNamedWithTheirPlace)
 {
   for (const double wrong : {0.0, -2.0, std::numeric_limits<double>::quiet_NaN(),

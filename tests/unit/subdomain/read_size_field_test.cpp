@@ -33,7 +33,22 @@ TEST(ReadSizeField, TakesTheArrayOfTheFile)
   const sizing::SizeField sizes = read_size_field(options, kuhn_cube(1));
   EXPECT_DOUBLE_EQ(sizes.at(Vec3{0.5, 0.2, 0.9}).front(), 1.5);
   EXPECT_DOUBLE_EQ(sizes.at(Vec3{0.9, 0.2, 0.9}).front(), 1.75);
-  EXPECT_NE(sizes.field_content(), Hash128{});
+}
+
+TEST(SizeFieldContent, IsThatOfAllValues)
+{
+  const TemporaryFolder folder;
+  const auto content_of = [&](const std::string& image) {
+    write_bytes(folder / "f.vti", image);
+    return size_field_content({.field = folder / "f.vti", .field_array = "h"});
+  };
+  const std::string image = kImage;
+  const Hash128 content = content_of(image);
+  EXPECT_NE(content, Hash128{});
+  EXPECT_EQ(content_of(image), content);
+  const std::size_t last = image.rfind("2</DataArray>");
+  EXPECT_NE(content_of(std::string(image).replace(last, 1, "3")), content);
+  EXPECT_EQ(size_field_content({.target = 1.0}), Hash128{});
 }
 
 TEST(ReadSizeField, NeedsNoFile)
