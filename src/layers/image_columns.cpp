@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <span>
 #include <vector>
@@ -14,11 +15,11 @@ namespace tessera::layers {
 namespace {
 
 // Vertices at which a wall ends on one side only: an edge of it has an image that is none.
-std::vector<bool> ends_of_unlike_edges(const mesh::CoarseMesh& mesh,
+std::vector<bool> ends_of_unlike_edges(const mesh::CoarseMesh& mesh, mesh::ImageKind kind,
                                        const std::set<WallEdge>& on_walls)
 {
   std::vector<bool> is_end(at(mesh.num_vertices()), false);
-  for (const mesh::ImageEdge& edge : mesh::image_edges(mesh, mesh::ImageKind::without_joints)) {
+  for (const mesh::ImageEdge& edge : mesh::image_edges(mesh, kind)) {
     if (on_walls.contains(edge.from) == on_walls.contains(edge.to)) continue;
     for (std::size_t end = 0; end < 2; ++end) {
       is_end[at(edge.from[end])] = true;
@@ -88,7 +89,9 @@ class ColumnJoiner {
       : mesh_(mesh),
         walls_(walls),
         orbits_(mesh::find_vertex_orbits(mesh, mesh::ImageKind::without_joints)),
-        is_end_(ends_of_unlike_edges(mesh, on_walls)),
+        periodic_(mesh::find_vertex_orbits(mesh, mesh::ImageKind::periodic).vertices),
+        is_end_(ends_of_unlike_edges(mesh, mesh::ImageKind::without_joints, on_walls)),
+        is_periodic_end_(ends_of_unlike_edges(mesh, mesh::ImageKind::periodic, on_walls)),
         is_beside_split_(vertices_beside_splits(mesh, walls))
   {
     walls.images = orbits_.images;
@@ -101,11 +104,10 @@ class ColumnJoiner {
     const IndexLists members_of = rows_by_key(orbits_.vertices.base, mesh_.num_vertices());
     for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
       const auto members = members_of[base];
-      if (members.size() < 2 || are_free(members)) continue;
-      if (are_alike(members)) {
-        join(base, members);
+      if (std::ranges::any_of(members, [&](LocalIndex v) { return goes_along_split(v); })) {
+        join_if_alike(members, is_end_);
       } else {
-        leave_out(members);
+        join_sides_apart(members);
       }
     }
   }
@@ -141,19 +143,36 @@ class ColumnJoiner {
   }
   [[nodiscard]] LocalIndex image_of(LocalIndex v) const { return orbits_.vertices.image_of(v); }
 
-  // Copies on walls of their own, at the two sides of a split.
-  [[nodiscard]] bool are_free(std::span<const LocalIndex> members) const
+  [[nodiscard]] bool goes_along_split(LocalIndex v) const
   {
-    return std::ranges::all_of(members, [&](LocalIndex v) {
-      return image_of(v) == 0 && !(is_on_wall(v) && is_beside_split_[at(v)]);
-    });
+    return is_on_wall(v) && is_beside_split_[at(v)];
   }
 
-  [[nodiscard]] bool are_alike(std::span<const LocalIndex> members) const
+  // Copies at the sides of a split have columns of their own there; each goes with its images.
+  void join_sides_apart(std::span<const LocalIndex> members)
+  {
+    std::map<LocalIndex, std::vector<LocalIndex>> sides;
+    for (const LocalIndex v : members) sides[periodic_.base_of(v)].push_back(v);
+    for (const auto& [base, side] : sides) join_if_alike(side, is_periodic_end_);
+  }
+
+  void join_if_alike(std::span<const LocalIndex> members, const std::vector<bool>& is_end)
+  {
+    if (members.size() < 2) return;
+    if (are_alike(members, is_end)) {
+      join(members);
+    } else {
+      leave_out(members);
+    }
+  }
+
+  [[nodiscard]] bool are_alike(std::span<const LocalIndex> members,
+                               const std::vector<bool>& is_end) const
   {
     const auto image = [&](LocalIndex v) { return image_of(v); };
+    if (std::ranges::find(members, 0, image) == members.end()) return false;
     const auto may_join = [&](LocalIndex v) {
-      if (!is_on_wall(v) || is_end_[at(v)] || vertex(v).column == Vec3{}) return false;
+      if (!is_on_wall(v) || is_end[at(v)] || vertex(v).column == Vec3{}) return false;
       if (std::ranges::count(members, image_of(v), image) == 1) return true;
       return is_beside_split_[at(v)]
              && go_one_way(v, *std::ranges::find(members, image_of(v), image));
@@ -181,8 +200,11 @@ class ColumnJoiner {
     return is_on_wall(b) && vertex(a).curve == vertex(b).curve && surface(a) == surface(b);
   }
 
-  void join(LocalIndex base, std::span<const LocalIndex> members)
+  // The lowest one that is no image leads the others.
+  void join(std::span<const LocalIndex> members)
   {
+    const LocalIndex base =
+        *std::ranges::find(members, 0, [&](LocalIndex v) { return image_of(v); });
     const WallVertex& leader = shortest(members, walls_);
     const Vec3 column = norm(leader.column) * common_direction(members, orbits_, walls_);
     const LocalIndex stack = leader.stack;
@@ -207,7 +229,9 @@ class ColumnJoiner {
   const mesh::CoarseMesh& mesh_;
   WallSurface& walls_;
   mesh::VertexOrbits orbits_;
+  mesh::OrbitTable periodic_;
   std::vector<bool> is_end_;
+  std::vector<bool> is_periodic_end_;
   std::vector<bool> is_beside_split_;
 };
 

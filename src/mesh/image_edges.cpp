@@ -13,8 +13,10 @@ std::vector<ImageEdge> image_edges(const CoarseMesh& mesh, ImageKind kind)
     return sorted_triangle(v[0], v[1], v[2]);
   };
   const auto is_meant = [&](LocalIndex face) {
+    const LocalIndex patch = mesh.face_patch[at(face)];
     if (kind == ImageKind::all) return true;
-    return sides.is_joint(mesh.face_patch[at(face)]) == (kind == ImageKind::joints);
+    if (kind == ImageKind::periodic) return sides.patch_transform[at(patch)] != 0;
+    return sides.is_joint(patch) == (kind == ImageKind::joints);
   };
   constexpr std::array<std::array<std::size_t, 2>, 3> kSides{{{0, 1}, {0, 2}, {1, 2}}};
   std::vector<ImageEdge> edges;

@@ -333,6 +333,28 @@ class Baffle(LayersTest):
                 other = self.mesh(self.folder / "case.toml", f"{wall}_3", ranks=3)
                 self.assertEqual(program.mesh_files(other), program.mesh_files(out))
 
+    def test_has_them_up_to_periodic_sides(self):
+        """Here the plate is a contact that goes from one side to the other; with layers on both sides of it, or on one."""
+        self.write("model.geo", """algebraic3d
+solid slab = plane (0, 0, 0; -1, 0, 0) and plane (2, 1, 1; 1, 0, 0) and plane (0, 0, 0; 0, -1, 0) and plane (2, 1, 1; 0, 1, 0);
+solid low = slab and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 0.5; 0, 0, 1);
+solid top = slab and not plane (0, 0, 0.5; 0, 0, 1) and plane (2, 1, 1; 0, 0, 1);
+tlo low;
+tlo top;
+""")
+        names = "".join(f"[[geometry.name]]\nname = '{name}'\npatch = {{ normal = [0, {y}, 0] }}\n" for name, y in (("front", -1), ("back", 1)))
+        names += "[[geometry.name]]\nname = 'plate'\npatch = { box = { min = [0, 0, 0.5], max = [2, 1, 0.5] } }\n"
+        for wall in ("plate", "plate_plus"):
+            with self.subTest(wall=wall):
+                out = self.mesh(self.write(
+                    "case.toml",
+                    f"geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = 6\nrefine.levels = 1\n{program.NO_PAGE}{names}"
+                    "[[periodic]]\nfrom = 'front'\nto = 'back'\n[[split]]\npatch = 'plate'\n"
+                    f"[[layer]]\npatch = '{wall}'\nfirst = 0.01\ncount = 3\n"), wall)
+                report = self.checked(out)
+                self.assertAlmostEqual(report["layers"]["covered"], 1.0)
+                self.assertAlmostEqual(report["volume"], 2.0, places=9)
+
     def test_stands_in_layers_of_the_floor(self):
         covered = {}
         for walls in ((self.FLOOR,), (self.FLOOR, "plate"), (self.FLOOR, "plate_plus")):

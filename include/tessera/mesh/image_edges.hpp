@@ -19,8 +19,8 @@ struct ImageEdge {
   LocalIndex transform = 0;  ///< Row of SideImages::transforms.
 };
 
-/// @brief Which images are meant.
-enum class ImageKind : std::uint8_t { all, joints, without_joints };
+/// @brief Which images are meant. Periodic ones are neither at joints nor at splits.
+enum class ImageKind : std::uint8_t { all, joints, without_joints, periodic };
 
 /// @brief The sides of all faces that are images, in the order of these; some stand twice. Local.
 [[nodiscard]] std::vector<ImageEdge> image_edges(const CoarseMesh& mesh,
