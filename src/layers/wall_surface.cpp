@@ -84,6 +84,7 @@ class WallFinder {
     find_vertices();
     find_triangles();
     find_wall_edges();
+    find_bodies();
     find_segments();
     const IndexLists around = triangles_around();
     for (std::size_t row = 0; row < surface_.vertices.size(); ++row) {
@@ -156,16 +157,42 @@ class WallFinder {
     return dot(away, first.normal) < 0.0;
   }
 
-  // Curves that leave a wall: their segments are no sides of its triangles.
+  void find_bodies()
+  {
+    const std::vector<mesh::TriangleTets> faces = mesh::tets_of_faces(mesh_);
+    for (const SurfaceTriangle& triangle : surface_.triangles) {
+      for (const LocalIndex tet : faces[at(triangle.face)].tets) {
+        if (tet == kNoIndex) continue;
+        const LocalIndex body = mesh_.body(mesh_.tet_material[at(tet)]);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const LocalIndex v = triangle.vertices[c];
+          bodies_at_edges_[edge_between(v, triangle.vertices[(c + 1) % 3])].insert(body);
+          if (triangle.is_wall) bodies_of_walls_[v].insert(body);
+        }
+      }
+    }
+  }
+
+  // Curves that leave a wall: their segments are no sides of its triangles, but bound its body.
   void find_segments()
   {
     for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
       const LocalIndex* v = &mesh_.segment_vertices[2 * at(s)];
-      if (edges_on_walls_.contains(edge_between(v[0], v[1]))) continue;
+      const WallEdge edge = edge_between(v[0], v[1]);
+      if (edges_on_walls_.contains(edge)) continue;
       for (std::size_t end = 0; end < 2; ++end) {
-        if (surface_.wall_of_vertex[at(v[end])] != kNoIndex) leaving_[v[end]].push_back({s, end});
+        if (bounds_wall_body(edge, v[end])) leaving_[v[end]].push_back({s, end});
       }
     }
+  }
+
+  [[nodiscard]] bool bounds_wall_body(const WallEdge& edge, LocalIndex vertex) const
+  {
+    const auto of_walls = bodies_of_walls_.find(vertex);
+    const auto at_edge = bodies_at_edges_.find(edge);
+    if (of_walls == bodies_of_walls_.end() || at_edge == bodies_at_edges_.end()) return false;
+    return std::ranges::any_of(of_walls->second,
+                               [&](LocalIndex body) { return at_edge->second.contains(body); });
   }
 
   [[nodiscard]] IndexLists triangles_around() const
@@ -288,6 +315,8 @@ class WallFinder {
   std::span<const PatchLayers> patches_;
   WallSurface surface_{};
   std::set<WallEdge> edges_on_walls_{};
+  std::map<WallEdge, std::set<LocalIndex>> bodies_at_edges_{};    // Of triangles that touch walls.
+  std::map<LocalIndex, std::set<LocalIndex>> bodies_of_walls_{};  // Behind them, by vertex.
   std::set<LocalIndex> on_acute_edge_{};
   std::map<LocalIndex, std::vector<std::pair<LocalIndex, std::size_t>>> leaving_{};
 };

@@ -488,6 +488,27 @@ class BetweenSolids(LayersTest):
             f"geometry.file = 'model.geo'\ncoarse.max_size = 0.3\ndecompose.subdomains = 6\nrefine.levels = 1\n{program.NO_PAGE}"
             "[[geometry.contact]]\nbody = 'a'\nother = 'b'\n[[layer]]\npatch = '*'\nside = 'water'\nfirst = 0.005\ncount = 2\n"), "contact"))
 
+    def test_do_not_follow_curves_of_another_solid(self):
+        """A box on a foot that narrows downwards: the foot's edges lead inwards from the corners of the box."""
+        self.write("model.geo", """algebraic3d
+solid box = orthobrick (0, 0, 0; 1, 1, 0.5);
+solid foot = plane (0, 0, 0; 0, 0, 1) and plane (0, 0, -0.5; 0, 0, -1)
+         and plane (0, 0, 0; -1, 0, -0.4) and plane (1, 1, 0; 1, 0, -0.4)
+         and plane (0, 0, 0; 0, -1, -0.4) and plane (1, 1, 0; 0, 1, -0.4);
+tlo box;
+tlo foot;
+""")
+        sides = "".join(
+            f"[[geometry.name]]\nname = 'side'\npatch = {{ normal = {normal}, box = {{ min = [0, 0, 0], max = [1, 1, 0.5] }} }}\n"
+            for normal in ([1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]))
+        out = self.mesh(self.write(
+            "case.toml",
+            f"geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = 4\nrefine.levels = 1\n{program.NO_PAGE}{sides}"
+            "[[layer]]\npatch = 'side'\nfirst = 0.02\ncount = 3\n"), "foot")
+        volumes = {one["name"]: one["volume"] for one in self.checked(out)["materials"]}
+        self.assertAlmostEqual(volumes["box"], 0.5, places=9)
+        self.assertAlmostEqual(volumes["foot"], (1 - 0.6**3) / (6 * 0.4), places=9)
+
     def test_needs_a_solid_and_a_side(self):
         case = self.block("water")
         text = case.read_text()
