@@ -14,7 +14,7 @@ namespace tessera::model {
 /// outside of one.
 struct FaceDescription {
   LocalIndex number = 0;           ///< The model's surface number plus 1.
-  LocalIndex patch = kNoIndex;     ///< Of the mesh; kNoIndex: the surface number.
+  LocalIndex patch = kNoIndex;     ///< Row in the mesh, if that is not the surface number.
   LocalIndex piece_of = kNoIndex;  ///< Number before `[[embed]]` of the face that it is a piece
                                    ///< of; 0: it was put in. kNoIndex: nothing was.
   std::string name{};              ///< Empty: the file has none.
