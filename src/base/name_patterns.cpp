@@ -8,6 +8,7 @@
 
 #include "tessera/base/edit_distance.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 
 namespace tessera {
 
@@ -15,9 +16,7 @@ std::string nearest_first(const std::string& pattern, std::span<const std::strin
 {
   constexpr std::size_t kMost = 12;
   std::vector<std::string> sorted(names.begin(), names.end());
-  std::ranges::sort(sorted);
-  const auto repeated = std::ranges::unique(sorted);
-  sorted.erase(repeated.begin(), repeated.end());
+  sort_unique(sorted);
   std::ranges::stable_sort(sorted, {},
                            [&](const std::string& name) { return edit_distance(pattern, name); });
   std::string text;

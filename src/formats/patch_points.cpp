@@ -28,10 +28,10 @@ void sort_out(const Tags& tags, std::vector<PatchPoint>& points)
 {
   for (PatchPoint& point : points) point.patch = tags.tag_of_patch.at(point.patch);
   std::ranges::sort(points, is_before);
-  const auto repeated = std::ranges::unique(points, [](const PatchPoint& a, const PatchPoint& b) {
+  const auto is_again = [](const PatchPoint& a, const PatchPoint& b) {
     return !is_before(a, b) && !is_before(b, a);
-  });
-  points.erase(repeated.begin(), repeated.end());
+  };
+  points.erase(std::unique(points.begin(), points.end(), is_again), points.end());
 }
 
 // Calls `visit(point, row)` for those among the shared points, which are ascending.

@@ -43,8 +43,8 @@ class PartJoiner {
   PiecePart finish() &&
   {
     std::ranges::sort(tets_, {}, &TaggedTet::tag);
-    const auto again = std::ranges::unique(tets_, {}, &TaggedTet::tag);
-    tets_.erase(again.begin(), again.end());
+    const auto is_again = [](const TaggedTet& a, const TaggedTet& b) { return a.tag == b.tag; };
+    tets_.erase(std::unique(tets_.begin(), tets_.end(), is_again), tets_.end());
     for (const bool is_on_skin : {true, false}) number_vertices(is_on_skin);
     for (const TaggedTet& tet : tets_) {
       joined_.tet_tag.push_back(tet.tag);

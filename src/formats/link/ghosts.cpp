@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/record_exchange.hpp"
 
@@ -67,9 +68,7 @@ class GhostFinder {
         for (const LocalIndex target : targets_of(list.of(row))) add(cell, list.of(row), target);
       }
     }
-    std::ranges::sort(needed_);
-    const auto repeated = std::ranges::unique(needed_);
-    needed_.erase(repeated.begin(), repeated.end());
+    sort_unique(needed_);
     for (const auto& [target, row] : needed_) {
       found_.points.push_back(
           {target, piece_.point_numbers[at(row)], point_at(std::span(piece_.point_xyz), row)});
@@ -89,9 +88,7 @@ class GhostFinder {
     targets_.clear();
     for (const LocalIndex row : corners)
       targets_.insert(targets_.end(), sharers(row).begin(), sharers(row).end());
-    std::ranges::sort(targets_);
-    const auto repeated = std::ranges::unique(targets_);
-    targets_.erase(repeated.begin(), repeated.end());
+    sort_unique(targets_);
     return targets_;
   }
 

@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/surface/overlap.hpp"
 
 #include "support/patch_surfaces.hpp"
@@ -121,8 +122,8 @@ int num_shells(const model::TriangleSurface& surface)
       }
     }
   }
-  std::ranges::sort(lowest);
-  return static_cast<int>(std::ranges::unique(lowest).begin() - lowest.begin());
+  sort_unique(lowest);
+  return static_cast<int>(lowest.size());
 }
 
 TEST(WrapSurface, BodiesThatMeetAtAnEdgeOrACornerAreTakenApart)
