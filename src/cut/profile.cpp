@@ -40,7 +40,9 @@ struct Passed {
 Profile profile_of(const PartSurface& part, const Vec3& normal, const std::vector<double>& heights,
                    std::size_t num_entries)
 {
-  const auto [low, high] = std::ranges::minmax(heights);
+  const auto ends = std::ranges::minmax(heights);
+  const double low = ends.min;
+  const double high = ends.max;
   Profile profile{.first = low, .step = (high - low) / static_cast<double>(num_entries - 1)};
   profile.volume.assign(num_entries, 0.0);
   profile.area.assign(num_entries, 0.0);

@@ -79,7 +79,7 @@ WeldedModel weld_faces(const model::ModelDescription& model)
     apart.push_back({v, model.triangle_face[t]});
     for (LocalIndex& vertex : v) vertex = joined[at(vertex)];
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-    std::ranges::rotate(v, std::ranges::min_element(v));
+    std::rotate(v.begin(), std::ranges::min_element(v), v.end());
     welded.triangles.push_back({v, model.triangle_face[t]});
   }
   std::ranges::sort(welded.triangles, {}, [](const SurfaceTriangle& triangle) {

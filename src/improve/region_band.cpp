@@ -129,9 +129,10 @@ class BandMaker {
       const LocalIndex* v = tet(t);
       for (const auto& [a, b, c] : mesh::kTetFaceCorners) {
         const RegionSet around = known_[at(v[a])] & known_[at(v[b])] & known_[at(v[c])];
+        const std::array triangle{v[a], v[b], v[c]};
         for_each_of(around & ~own_[at(t)], [&](std::size_t row) {
           auto& triangles = bands_[row].outside_triangles;
-          triangles.insert(triangles.end(), {v[a], v[b], v[c]});
+          triangles.insert(triangles.end(), triangle.begin(), triangle.end());
         });
       }
     }

@@ -106,7 +106,8 @@ void EditableSurface::put_on_curve(LocalIndex a, LocalIndex b, LocalIndex curve)
 void EditableSurface::take_off_curve(LocalIndex a, LocalIndex b)
 {
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-    std::erase_if(curve_ends_[at(from)], [&](const CurveEnd& end) { return end.vertex == to; });
+    std::erase_if(curve_ends_[at(from)],
+                  [gone = to](const CurveEnd& end) { return end.vertex == gone; });
   }
 }
 
@@ -114,7 +115,7 @@ std::array<Vec3, 3> EditableSurface::corners_from(LocalIndex t, LocalIndex first
 {
   std::array<Vec3, 3> p = corners(t);
   const auto at_first = std::ranges::find(triangles_[at(t)], first) - triangles_[at(t)].begin();
-  std::ranges::rotate(p, p.begin() + at_first);
+  std::rotate(p.begin(), p.begin() + at_first, p.end());
   return p;
 }
 

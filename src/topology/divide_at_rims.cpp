@@ -35,8 +35,8 @@ std::vector<Simplex> find_closed(const mesh::CoarseMesh& mesh, const SplitFaces&
   std::vector<Simplex> closed;
   std::vector<LocalIndex> opened_by_edges;
   for (const auto& [edge, faces] : faces_of_edge) {
-    const auto is_closed_at = [&](LocalIndex f) {
-      return !split.is_parted(f, edge[0]) && !split.is_parted(f, edge[1]);
+    const auto is_closed_at = [&split, &ends = edge](LocalIndex f) {
+      return !split.is_parted(f, ends[0]) && !split.is_parted(f, ends[1]);
     };
     if (faces.size() < 2 || std::ranges::none_of(faces, is_closed_at)) continue;
     closed.push_back(edge);

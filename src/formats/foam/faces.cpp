@@ -29,7 +29,7 @@ void join_half(const Piece& piece, LocalIndex other_side, FoamFace& face)
 void begin_at(LocalIndex point, FoamFace& face)
 {
   const auto points = std::span(face.points).first(static_cast<std::size_t>(face.num_points));
-  std::ranges::rotate(points, std::ranges::find(points, point));
+  std::rotate(points.begin(), std::ranges::find(points, point), points.end());
 }
 
 void begin_at_lowest(const Piece& piece, FoamFace& face)

@@ -43,7 +43,7 @@ Entity<N> entity_of(const Piece& piece, std::array<LocalIndex, N> rows)
   if constexpr (N < 4) {
     std::ranges::sort(rows, {}, number_of);
   } else {
-    std::ranges::rotate(rows, std::ranges::min_element(rows, {}, number_of));
+    std::rotate(rows.begin(), std::ranges::min_element(rows, {}, number_of), rows.end());
     if (number_of(rows[3]) < number_of(rows[1])) std::swap(rows[1], rows[3]);
   }
   entity.rows = rows;

@@ -146,7 +146,7 @@ bool Defeaturer::lays_sheets_together(const Step& step) const
     const auto first = std::ranges::find(now, step.at) - now.begin();
     const bool is_narrow = height_of(p) <= std::min(tolerance_, kNarrow * longest_side(p));
     if (first == 3 || is_narrow) return;
-    std::ranges::rotate(p, p.begin() + first);
+    std::rotate(p.begin(), p.begin() + first, p.end());
     sheets.push_back({p, now, before});
   };
   for (std::size_t i = 0; i < step.made.size(); ++i) {

@@ -46,7 +46,7 @@ int volume_of(const std::array<CutNode, 4>& tet)
 
 Triangle turned(Triangle triangle)
 {
-  std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+  std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
   return triangle;
 }
 

@@ -99,7 +99,7 @@ using Triangle = std::array<Place, 3>;
 
 Triangle turned(Triangle triangle)
 {
-  std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+  std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
   return triangle;
 }
 
