@@ -38,19 +38,15 @@ SurfaceTriangle surface_triangle(const mesh::CoarseMesh& mesh, LocalIndex face,
   return {face, v, is_wall, unit_normal_of(p), std::min(kLeastShape, 0.5 * triangle_shape(p))};
 }
 
-// The faces of the geometry, turned so that they point away from the tets; of a face between two
-// materials, away from the lower material.
-std::vector<std::array<LocalIndex, 3>> outward_faces(const mesh::CoarseMesh& mesh)
+// A face of the geometry, turned so that it points away from the tets; between two materials, away
+// from the lower one.
+std::array<LocalIndex, 3> outward(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& face)
 {
-  std::vector<std::array<LocalIndex, 3>> outward;
-  for (const mesh::TriangleTets& face : mesh::tets_of_faces(mesh)) {
-    const auto material = [&](std::size_t side) { return mesh.tet_material[at(face.tets[side])]; };
-    const std::size_t side = face.tets[1] != kNoIndex && material(1) < material(0) ? 1 : 0;
-    const auto tet = mesh.tet(face.tets[side]);
-    const auto& [a, b, c] = mesh::kTetFaceCorners[at(face.corners[side])];
-    outward.push_back({tet[a], tet[b], tet[c]});
-  }
-  return outward;
+  const auto material = [&](std::size_t side) { return mesh.tet_material[at(face.tets[side])]; };
+  const std::size_t side = face.tets[1] != kNoIndex && material(1) < material(0) ? 1 : 0;
+  const auto tet = mesh.tet(face.tets[side]);
+  const auto& [a, b, c] = mesh::kTetFaceCorners[at(face.corners[side])];
+  return {tet[a], tet[b], tet[c]};
 }
 
 // The direction whose smallest cosine to the normals is largest.
@@ -75,7 +71,7 @@ WallEdge edge_between(LocalIndex a, LocalIndex b) { return {std::min(a, b), std:
 class WallFinder {
  public:
   WallFinder(const mesh::CoarseMesh& mesh, std::span<const PatchLayers> patches)
-      : mesh_(mesh), patches_(patches)
+      : mesh_(mesh), patches_(patches), faces_(mesh::tets_of_faces(mesh))
   {
   }
 
@@ -84,7 +80,6 @@ class WallFinder {
     find_vertices();
     find_triangles();
     find_wall_edges();
-    find_bodies();
     find_segments();
     const IndexLists around = triangles_around();
     for (std::size_t row = 0; row < surface_.vertices.size(); ++row) {
@@ -121,9 +116,8 @@ class WallFinder {
 
   void find_triangles()
   {
-    const auto outward = outward_faces(mesh_);
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
-      const auto& v = outward[at(f)];
+      const auto v = outward(mesh_, faces_[at(f)]);
       const bool touches = std::ranges::any_of(
           v, [&](LocalIndex one) { return surface_.wall_of_vertex[at(one)] != kNoIndex; });
       if (touches) surface_.triangles.push_back(surface_triangle(mesh_, f, v, is_wall(f)));
@@ -157,42 +151,16 @@ class WallFinder {
     return dot(away, first.normal) < 0.0;
   }
 
-  void find_bodies()
-  {
-    const std::vector<mesh::TriangleTets> faces = mesh::tets_of_faces(mesh_);
-    for (const SurfaceTriangle& triangle : surface_.triangles) {
-      for (const LocalIndex tet : faces[at(triangle.face)].tets) {
-        if (tet == kNoIndex) continue;
-        const LocalIndex body = mesh_.body(mesh_.tet_material[at(tet)]);
-        for (std::size_t c = 0; c < 3; ++c) {
-          const LocalIndex v = triangle.vertices[c];
-          bodies_at_edges_[edge_between(v, triangle.vertices[(c + 1) % 3])].insert(body);
-          if (triangle.is_wall) bodies_of_walls_[v].insert(body);
-        }
-      }
-    }
-  }
-
-  // Curves that leave a wall: their segments are no sides of its triangles, but bound its body.
+  // Curves that leave a wall: their segments are no sides of its triangles.
   void find_segments()
   {
     for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
       const LocalIndex* v = &mesh_.segment_vertices[2 * at(s)];
-      const WallEdge edge = edge_between(v[0], v[1]);
-      if (edges_on_walls_.contains(edge)) continue;
+      if (edges_on_walls_.contains(edge_between(v[0], v[1]))) continue;
       for (std::size_t end = 0; end < 2; ++end) {
-        if (bounds_wall_body(edge, v[end])) leaving_[v[end]].push_back({s, end});
+        if (surface_.wall_of_vertex[at(v[end])] != kNoIndex) leaving_[v[end]].push_back({s, end});
       }
     }
-  }
-
-  [[nodiscard]] bool bounds_wall_body(const WallEdge& edge, LocalIndex vertex) const
-  {
-    const auto of_walls = bodies_of_walls_.find(vertex);
-    const auto at_edge = bodies_at_edges_.find(edge);
-    if (of_walls == bodies_of_walls_.end() || at_edge == bodies_at_edges_.end()) return false;
-    return std::ranges::any_of(of_walls->second,
-                               [&](LocalIndex body) { return at_edge->second.contains(body); });
   }
 
   [[nodiscard]] IndexLists triangles_around() const
@@ -263,15 +231,17 @@ class WallFinder {
                                   const std::vector<Vec3>& inward) const
   {
     const auto leaving = leaving_.find(vertex.vertex);
-    if (leaving != leaving_.end()) return along_curve(vertex, leaving->second);
+    if (leaving != leaving_.end()) return along_curve(vertex, around, leaving->second);
     if (sides.empty()) return best_direction(inward);
     if (sides.size() > 1) return {};
     return along_patch(vertex, around, sides.front(), inward);
   }
 
-  // Segments of one curve may stand twice, with the parameters of either side.
+  // Segments of one curve may stand twice, with the parameters of either side. A curve that does
+  // not bound the wall's body leads out of it.
   [[nodiscard]] Vec3 along_curve(
-      WallVertex& vertex, const std::vector<std::pair<LocalIndex, std::size_t>>& leaving) const
+      WallVertex& vertex, std::span<const LocalIndex> around,
+      const std::vector<std::pair<LocalIndex, std::size_t>>& leaving) const
   {
     const auto other_end = [&](const std::pair<LocalIndex, std::size_t>& one) {
       return mesh_.segment_vertices[2 * at(one.first) + 1 - one.second];
@@ -280,9 +250,28 @@ class WallFinder {
     for (const auto& one : leaving) {
       if (other_end(one) != other_end(leaving.front())) return {};
     }
+    if (!bounds_wall_body(other_end(leaving.front()), around)) return {};
     vertex.curve = mesh_.segment_curve[at(segment)];
     if (!mesh_.segment_t.empty()) vertex.t = mesh_.segment_t[2 * at(segment) + end];
     return unit(mesh_.position(other_end(leaving.front())) - vertex.wall);
+  }
+
+  // Whether the edge to another vertex is a side of a triangle on a body that has a wall here.
+  [[nodiscard]] bool bounds_wall_body(LocalIndex other, std::span<const LocalIndex> around) const
+  {
+    std::set<LocalIndex> of_walls;
+    std::set<LocalIndex> at_edge;
+    for (const LocalIndex row : around) {
+      const SurfaceTriangle& triangle = surface_.triangles[at(row)];
+      const bool has_edge = std::ranges::count(triangle.vertices, other) > 0;
+      for (const LocalIndex tet : faces_[at(triangle.face)].tets) {
+        if (tet == kNoIndex) continue;
+        const LocalIndex body = mesh_.body(mesh_.tet_material[at(tet)]);
+        if (triangle.is_wall) of_walls.insert(body);
+        if (has_edge) at_edge.insert(body);
+      }
+    }
+    return std::ranges::any_of(at_edge, [&](LocalIndex body) { return of_walls.contains(body); });
   }
 
   [[nodiscard]] Vec3 along_patch(WallVertex& vertex, std::span<const LocalIndex> around,
@@ -313,10 +302,9 @@ class WallFinder {
 
   const mesh::CoarseMesh& mesh_;
   std::span<const PatchLayers> patches_;
+  std::vector<mesh::TriangleTets> faces_;
   WallSurface surface_{};
   std::set<WallEdge> edges_on_walls_{};
-  std::map<WallEdge, std::set<LocalIndex>> bodies_at_edges_{};    // Of triangles that touch walls.
-  std::map<LocalIndex, std::set<LocalIndex>> bodies_of_walls_{};  // Behind them, by vertex.
   std::set<LocalIndex> on_acute_edge_{};
   std::map<LocalIndex, std::vector<std::pair<LocalIndex, std::size_t>>> leaving_{};
 };
