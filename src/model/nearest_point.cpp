@@ -126,7 +126,8 @@ NearestPointSearch<Simplex>::NearestPointSearch(std::span<const Simplex> simplic
   for (const LocalIndex number : tree_.order()) simplices_.push_back(simplices[at(number)]);
 }
 
-// Quicker than the search by distance, as most boxes and tets are ruled out at once.
+// Quicker than the search by distance, as most boxes and tets are ruled out at once. Clang 14
+// instantiates it for other simplices too, in spite of what it requires.
 template <class Simplex>
 LocalIndex NearestPointSearch<Simplex>::lowest_holding(
     const Vec3& point) const requires IsTet<Simplex>
@@ -137,7 +138,9 @@ LocalIndex NearestPointSearch<Simplex>::lowest_holding(
                [&](LocalIndex row) {
                  const LocalIndex number = tree_.order()[at(row)];
                  const bool is_lower = lowest == kNoIndex || number < lowest;
-                 if (is_lower && holds(simplices_[at(row)], point)) lowest = number;
+                 if constexpr (IsTet<Simplex>) {
+                   if (is_lower && holds(simplices_[at(row)], point)) lowest = number;
+                 }
                });
   return lowest;
 }
