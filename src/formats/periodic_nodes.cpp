@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats/periodic_nodes.hpp"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace tessera::formats {
@@ -9,8 +8,7 @@ namespace tessera::formats {
 void for_each_periodic(const Outline& outline, const Piece& piece, const VisitPeriodic& visit)
 {
   for (std::size_t row = 0; row < outline.periodic.size(); ++row) {
-    const auto found = std::ranges::equal_range(
-        piece.periodic_points, static_cast<std::int32_t>(row), {}, &PeriodicPoint::patch);
+    const auto found = rows_of_patch(piece.periodic_points, static_cast<std::int32_t>(row));
     if (!found.empty()) visit(row, outline.periodic[row].first_point[at(piece.number)], found);
   }
 }

@@ -99,11 +99,12 @@ void count_edges(const CutPiece& cut, const std::vector<LocalIndex>& vertex_tag,
   std::vector<Edge> common;
   std::ranges::set_intersection(edges_between(in_both, piece.tet_vertices),
                                 edges_between(in_both, cut.outer_tets), std::back_inserter(common));
-  const auto inner = std::ranges::partition(
-      common, [&](const Edge& edge) { return edge[1] < piece.num_skin_vertices(); });
+  const auto inner = std::partition(common.begin(), common.end(), [&](const Edge& edge) {
+    return edge[1] < piece.num_skin_vertices();
+  });
   measure_edges(piece, core.figures.histograms);
-  take_away({inner.begin(), inner.end()}, piece, core.figures.histograms);
-  for (auto edge = common.begin(); edge != inner.begin(); ++edge) {
+  take_away({inner, common.end()}, piece, core.figures.histograms);
+  for (auto edge = common.begin(); edge != inner; ++edge) {
     core.shared_edges.push_back({vertex_tag[at((*edge)[0])], vertex_tag[at((*edge)[1])]});
   }
 }

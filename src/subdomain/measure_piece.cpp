@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <span>
 
 #include "tessera/mesh/tet_edges.hpp"
@@ -51,6 +50,14 @@ GlobalIndex euler_characteristic(const mesh::Piece& piece, GlobalIndex num_edges
   const GlobalIndex num_tets = piece.num_tets();
   const GlobalIndex num_triangles = (4 * num_tets + num_skin_triangles) / 2;
   return piece.num_vertices() - num_edges + num_triangles - num_tets;
+}
+
+template <class Value>
+std::vector<Value> values_of(const std::map<LocalIndex, Value>& map)
+{
+  std::vector<Value> values;
+  for (const auto& [key, value] : map) values.push_back(value);
+  return values;
 }
 
 std::vector<char> vertices_on_seams(const mesh::Skin& skin, std::span<const char> seam_hosts)
@@ -140,8 +147,7 @@ std::vector<PatchArea> patch_areas(const mesh::Piece& piece)
     ++patch.num_triangles;
     patch.area += boundary_triangle_area(piece, row);
   }
-  const auto values = std::views::values(areas);
-  return {values.begin(), values.end()};
+  return values_of(areas);
 }
 
 std::vector<LineLength> line_lengths(const mesh::Piece& piece)
@@ -157,8 +163,7 @@ std::vector<LineLength> line_lengths(const mesh::Piece& piece)
     const Vec3 middle = piece.line_nodes.empty() ? midpoint(a, b) : position(piece.line_nodes[row]);
     line.length += norm(middle - a) + norm(b - middle);
   }
-  const auto values = std::views::values(lengths);
-  return {values.begin(), values.end()};
+  return values_of(lengths);
 }
 
 FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& skin,

@@ -238,10 +238,10 @@ LimitedPieces run_refine_stage(const config::Case& run_case, const RefineWork& w
   FilledPieces all;
   for (;;) {
     load_limiter(limiter, context);
-    auto [made, folds] = stage_work.refine_all(limiter);
-    all = std::move(made);
+    auto made = stage_work.refine_all(limiter);
+    all = std::move(made.first);
     if (all.folded.empty()) break;
-    all_or_none(context.comm, [&] { limiter = lowered(limiter, folds, work); });
+    all_or_none(context.comm, [&] { limiter = lowered(limiter, made.second, work); });
   }
   all_or_none(context.comm, [&] { require_counted(all.pieces, counts); });
   all.seam_sums = std::move(filled.seam_sums);

@@ -8,6 +8,7 @@
 
 #include "formats/joined_tets.hpp"
 #include "formats/link/tets_behind.hpp"
+#include "formats/periodic_nodes.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -148,7 +149,7 @@ std::vector<FoamFace> foam_patch_faces(const Piece& piece, std::int32_t tag)
 
 std::span<const CyclicFace> cyclic_faces_of(const Piece& piece, std::int32_t tag)
 {
-  return std::ranges::equal_range(piece.cyclic_faces, tag, {}, &CyclicFace::patch);
+  return rows_of_patch(piece.cyclic_faces, tag);
 }
 
 std::vector<FoamFace> foam_cyclic_faces(const Piece& piece, std::span<const CyclicFace> cyclic)

@@ -69,8 +69,7 @@ std::vector<std::array<std::uint8_t, N>> all_orders()
 std::size_t edge_between(std::size_t a, std::size_t b)
 {
   std::size_t e = 0;
-  while (std::ranges::minmax({a, b}).min != kTetEdgeCorners[e][0]
-         || std::ranges::minmax({a, b}).max != kTetEdgeCorners[e][1]) {
+  while (std::min(a, b) != kTetEdgeCorners[e][0] || std::max(a, b) != kTetEdgeCorners[e][1]) {
     ++e;
   }
   return e;

@@ -201,11 +201,11 @@ mesh::CoarseMesh cube_with_sides()
   std::map<std::string, LocalIndex> rows;
   for (LocalIndex f = 0; f < cube.num_faces(); ++f) {
     const LocalIndex* v = &cube.face_vertices[3 * at(f)];
-    for (const auto& [y, name] : {std::pair(0.0, "low_"), std::pair(1.0, "high_")}) {
+    for (const double y : {0.0, 1.0}) {
       const auto is_there = [&](LocalIndex corner) { return cube.position(corner)[1] == y; };
       if (!std::all_of(v, v + 3, is_there)) continue;
-      const std::string of_material =
-          name + std::to_string(cube.tet_material[at(faces[at(f)].tets[0])]);
+      const std::string of_material = (y == 0.0 ? "low_" : "high_")
+                                      + std::to_string(cube.tet_material[at(faces[at(f)].tets[0])]);
       const auto [row, is_new] = rows.emplace(of_material, cube.num_patches());
       if (is_new) {
         cube.patch_names.push_back(of_material);
