@@ -236,12 +236,12 @@ LimitedPieces run_refine_stage(const config::Case& run_case, const RefineWork& w
                    .has_files = work.has_files},
                   run_case.output, context);
   FilledPieces all;
+  std::vector<mesh::PointLimit> folds;
   for (;;) {
     load_limiter(limiter, context);
-    auto made = stage_work.refine_all(limiter);
-    all = std::move(made.first);
+    std::tie(all, folds) = stage_work.refine_all(limiter);
     if (all.folded.empty()) break;
-    all_or_none(context.comm, [&] { limiter = lowered(limiter, made.second, work); });
+    all_or_none(context.comm, [&] { limiter = lowered(limiter, folds, work); });
   }
   all_or_none(context.comm, [&] { require_counted(all.pieces, counts); });
   all.seam_sums = std::move(filled.seam_sums);
