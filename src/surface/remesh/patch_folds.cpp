@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <vector>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
@@ -25,11 +25,8 @@ class FoldFinder {
  public:
   FoldFinder(const PatchSurface& surface, const SurfaceReference& reference,
              const model::Model& model)
-      : surface_(surface), reference_(reference), model_(model)
+      : surface_(surface), reference_(reference), model_(model), middles_(surface.vertex_xyz.size())
   {
-    for (std::size_t e = 0; e < surface.edges.size(); ++e) {
-      curves_.emplace(surface.edges[e], surface.edge_curve[e]);
-    }
   }
 
   [[nodiscard]] bool folds(std::size_t t)
@@ -44,24 +41,32 @@ class FoldFinder {
   }
 
  private:
+  struct Middle {
+    LocalIndex end = kNoIndex;  // The edge's higher vertex.
+    Vec3 xyz{};
+  };
+
   // Where refinement puts the vertex of a side: found once for the two triangles there, as patches
   // meet along curves only.
   [[nodiscard]] Vec3 middle_of(std::size_t t, std::size_t side)
   {
     const PatchSurface::Triangle& v = surface_.triangles[t];
     const Edge edge = edge_of(v[side], v[(side + 1) % 3]);
-    const auto known = middles_.find(edge);
-    if (known != middles_.end()) return known->second;
-    return middles_.emplace(edge, found_middle(edge, surface_.triangle_patch[t])).first->second;
+    std::vector<Middle>& known = middles_[at(edge[0])];
+    const auto same = std::ranges::find(known, edge[1], &Middle::end);
+    if (same != known.end()) return same->xyz;
+    return known.emplace_back(Middle{edge[1], found_middle(edge, surface_.triangle_patch[t])}).xyz;
   }
 
   // What cannot be projected counts as straight.
   [[nodiscard]] Vec3 found_middle(const Edge& edge, LocalIndex patch)
   {
     const Vec3 chord = midpoint(surface_.vertex_xyz[at(edge[0])], surface_.vertex_xyz[at(edge[1])]);
-    const auto curve = curves_.find(edge);
+    const auto row = std::ranges::lower_bound(surface_.edges, edge);
+    const bool is_on_curve = row != surface_.edges.end() && *row == edge;
+    const auto e = static_cast<std::size_t>(row - surface_.edges.begin());
     const auto middle = projections_.run<GeometryError>([&] {
-      return curve == curves_.end() ? on_surface(patch, chord) : on_curve(curve->second, chord);
+      return is_on_curve ? on_curve(surface_.edge_curve[e], chord) : on_surface(patch, chord);
     });
     return middle.value_or(chord);
   }
@@ -79,8 +84,7 @@ class FoldFinder {
   const PatchSurface& surface_;
   const SurfaceReference& reference_;
   const model::Model& model_;
-  std::map<Edge, LocalIndex> curves_{};
-  std::map<Edge, Vec3> middles_{};
+  std::vector<std::vector<Middle>> middles_;  // Known ones, at the lower vertex of each edge.
   Attempts projections_{"middles of edges on the geometry, to find folds"};
 };
 

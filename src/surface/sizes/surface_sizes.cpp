@@ -46,19 +46,32 @@ constexpr double kEdgesOfLoop = 6.0;
 // Below it, in radians, the angle of two triangles or edges is the tessellation's noise.
 constexpr double kLeastTurn = 1e-3;
 
-using EdgeTriangles = std::map<Edge, std::vector<std::size_t>>;
+// Each edge with each of its triangles, ascending.
+using EdgeTriangles = std::vector<std::pair<Edge, std::size_t>>;
 
 EdgeTriangles triangles_by_edge(const PatchSurface& surface)
 {
   EdgeTriangles triangles;
+  triangles.reserve(3 * surface.triangles.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const PatchSurface::Triangle& v = surface.triangles[t];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
-      triangles[{low, high}].push_back(t);
-    }
+    for (std::size_t c = 0; c < 3; ++c) triangles.emplace_back(edge_of(v[c], v[(c + 1) % 3]), t);
   }
+  std::ranges::sort(triangles);
   return triangles;
+}
+
+// Calls visit(edge, its triangles) for each edge, ascending.
+template <class Visit>
+void for_each_edge(const EdgeTriangles& all, const Visit& visit)
+{
+  std::vector<std::size_t> triangles;
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    triangles.push_back(all[row].second);
+    if (row + 1 < all.size() && all[row + 1].first == all[row].first) continue;
+    visit(all[row].first, std::as_const(triangles));
+    triangles.clear();
+  }
 }
 
 // Finds where a surface goes round its own radius, as on a wire.
@@ -73,11 +86,11 @@ class RoundFinder {
       const Vec3 normal = normal_of(surface.corners(t));
       normals_.push_back(norm(normal) > 0.0 ? unit(normal) : Vec3{});
     }
-    for (const auto& [edge, two] : edge_triangles) {
-      if (two.size() != 2 || cosine(two[0], two[1]) <= kLeastSmoothCosine) continue;
+    for_each_edge(edge_triangles, [this](const Edge&, const std::vector<std::size_t>& two) {
+      if (two.size() != 2 || cosine(two[0], two[1]) <= kLeastSmoothCosine) return;
       beside_[two[0]].push_back(two[1]);
       beside_[two[1]].push_back(two[0]);
-    }
+    });
   }
 
   // Whether the surface that goes on smoothly from one of the vertex's triangles looks the other
@@ -142,7 +155,10 @@ class BentPlaces {
 
   std::vector<SizeSource> run() &&
   {
-    for (const auto& [edge, triangles] : edge_triangles_) bend_surface(edge, triangles);
+    for_each_edge(edge_triangles_,
+                  [this](const Edge& edge, const std::vector<std::size_t>& triangles) {
+                    bend_surface(edge, triangles);
+                  });
     bend_and_shorten_curves();
     resolve_round_places();
     return std::move(sources_);
@@ -230,18 +246,18 @@ class BentPlaces {
       is_round[v] = round.goes_round(v, radii_[v], triangles[v]) ? 1 : 0;
       if (is_round[v] != 0) note_repair(Repair::round_places);
     }
-    for (const auto& [edge, two] : edge_triangles_) {
-      if (is_round[at(edge[0])] == 0 || is_round[at(edge[1])] == 0) continue;
+    for_each_edge(edge_triangles_, [&](const Edge& edge, const std::vector<std::size_t>&) {
+      if (is_round[at(edge[0])] == 0 || is_round[at(edge[1])] == 0) return;
       const double radius = std::max(radii_[at(edge[0])], radii_[at(edge[1])]);
       add(edge, std::max(radius, kLeastOfRound * options_.max_size));
-    }
+    });
   }
 
   const PatchSurface& surface_;
   const CoarseOptions& options_;
   std::vector<SizeSource> sources_{};
   std::vector<double> radii_;  // Of the surface at each vertex, however small.
-  std::map<Edge, std::vector<std::size_t>> edge_triangles_;
+  EdgeTriangles edge_triangles_;
 };
 
 }  // namespace

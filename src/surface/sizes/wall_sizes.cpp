@@ -24,6 +24,9 @@ constexpr double kReach = 1.0 / kEdgesOfWall;
 // Sheets that face each other: their normals are less than 60 degrees apart.
 constexpr double kLeastCosine = 0.5;
 
+// In parts of the reach: rounding moves the end of a ray by far less.
+constexpr double kSlack = 1e-6;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Ray {
@@ -121,7 +124,9 @@ class WallSizes {
   {
     double nearest = kInfinity;
     LocalIndex wall = kNoIndex;
-    tree_.visit([&](const Box& box) { return touches(ray, box); },
+    // Most boxes are ruled out without the divisions that tell a ray from its own box.
+    const Box around = box_of(std::array{ray.from, ray.from + ray.along}).widened(kSlack * reach_);
+    tree_.visit([&](const Box& box) { return box.touches(around) && touches(ray, box); },
                 [&](LocalIndex other) {
                   if (share_a_corner(surface_.triangle(other), surface_.triangle(t))) return;
                   const double found = hit(ray, surface_.corners(other));
