@@ -141,6 +141,12 @@ std::vector<std::size_t> triangles_of(const std::vector<Overlap>& overlaps)
   return triangles;
 }
 
+// Moving onto the geometry makes no cut, so that one without any is not searched again.
+std::vector<Overlap> cuts_of(const Remeshed& one, Forbidden forbidden)
+{
+  return one.is_without_cuts ? std::vector<Overlap>{} : forbidden_overlaps(one.surface, forbidden);
+}
+
 // A surface on the geometry, with shorter edges where it would cut itself or fold.
 class Finer {
  public:
@@ -149,21 +155,21 @@ class Finer {
         model_(model),
         rims_(reference, model, options.periodic),
         sizes_(size_function_of(reference, options)),
-        surface_(remesh(reference, reference.surface(), sizes_, &model))
+        remeshed_(remesh(reference, reference.surface(), sizes_, &model))
   {
     if (!rims_.are_none()) match_sides();
     if (options.defeature > 0.0) merge({options.defeature, options.kept, std::cref(sizes_)});
-    put_on_geometry(surface_, reference_, model_);
-    most_triangles_ = kMostGrowth * surface_.triangles.size();
+    put_on_geometry(remeshed_.surface, reference_, model_);
+    most_triangles_ = kMostGrowth * remeshed_.surface.triangles.size();
   }
 
   // Shorter edges at forbidden cuts.
   void mend_cuts(Forbidden forbidden)
   {
     for (int round = 0; round < kFinerRounds && may_grow(); ++round) {
-      const std::vector<Overlap> cuts = forbidden_overlaps(surface_, forbidden);
+      const std::vector<Overlap> cuts = cuts_of(remeshed_, forbidden);
       if (cuts.empty()) return;
-      surface_ = finer_at(triangles_of(cuts));
+      remeshed_ = finer_at(triangles_of(cuts));
       note_repair(Repair::finer_at_cuts);
     }
   }
@@ -172,15 +178,14 @@ class Finer {
   // other however short edges are there: that ends when it does not help.
   void lessen_allowed_cuts(Forbidden forbidden)
   {
-    if (forbidden == Forbidden::all_cuts || !forbidden_overlaps(surface_, forbidden).empty())
-      return;
-    std::vector<Overlap> cuts = find_overlaps(surface_);
+    if (forbidden == Forbidden::all_cuts || !cuts_of(remeshed_, forbidden).empty()) return;
+    std::vector<Overlap> cuts = cuts_of(remeshed_, Forbidden::all_cuts);
     for (int round = 0; round < kFinerRounds && !cuts.empty() && may_grow(); ++round) {
       try {
-        PatchSurface finer = finer_at(triangles_of(cuts));
-        std::vector<Overlap> left = find_overlaps(finer);
-        if (left.size() >= cuts.size() || !forbidden_overlaps(finer, forbidden).empty()) return;
-        surface_ = std::move(finer);
+        Remeshed finer = finer_at(triangles_of(cuts));
+        std::vector<Overlap> left = cuts_of(finer, Forbidden::all_cuts);
+        if (left.size() >= cuts.size() || !cuts_of(finer, forbidden).empty()) return;
+        remeshed_ = std::move(finer);
         cuts = std::move(left);
         note_repair(Repair::finer_at_cuts);
       } catch (const GeometryError& error) {
@@ -193,16 +198,16 @@ class Finer {
   // projection that fails on the way loses nothing.
   void mend_folds()
   {
-    std::vector<std::size_t> folding = folding_triangles(surface_, reference_, model_);
+    std::vector<std::size_t> folding = folding_triangles(remeshed_.surface, reference_, model_);
     if (folding.empty() || is_left_out(Repair::finer_at_folds)) return;
-    std::size_t num_cut = find_overlaps(surface_).size();
+    std::size_t num_cut = cuts_of(remeshed_, Forbidden::all_cuts).size();
     for (int round = 0; round < kFinerRounds && !folding.empty() && may_grow(); ++round) {
       try {
-        PatchSurface finer = finer_at(folding);
-        std::vector<std::size_t> left = folding_triangles(finer, reference_, model_);
-        const std::size_t left_cut = find_overlaps(finer).size();
+        Remeshed finer = finer_at(folding);
+        std::vector<std::size_t> left = folding_triangles(finer.surface, reference_, model_);
+        const std::size_t left_cut = cuts_of(finer, Forbidden::all_cuts).size();
         if (left.size() >= folding.size() || left_cut > num_cut) return;
-        surface_ = std::move(finer);
+        remeshed_ = std::move(finer);
         folding = std::move(left);
         note_repair(Repair::finer_at_folds);
         num_cut = left_cut;
@@ -214,43 +219,47 @@ class Finer {
 
   [[nodiscard]] RemeshedSurface take() &&
   {
-    rims_.copy_triangles(surface_);
-    return {std::move(surface_), std::move(defeatured_)};
+    rims_.copy_triangles(remeshed_.surface);
+    return {std::move(remeshed_.surface), std::move(defeatured_)};
   }
 
  private:
-  [[nodiscard]] bool may_grow() const { return surface_.triangles.size() <= most_triangles_; }
+  [[nodiscard]] bool may_grow() const
+  {
+    return remeshed_.surface.triangles.size() <= most_triangles_;
+  }
 
   // That leaves bad triangles beside what is merged.
   void merge(const MergeLimits& limits)
   {
-    defeatured_ = defeature(surface_, reference_, model_, limits);
-    if (defeatured_.is_any()) surface_ = remeshed();
+    defeatured_ = defeature(remeshed_.surface, reference_, model_, limits);
+    if (defeatured_.is_any()) remeshed_ = remeshed();
   }
 
-  [[nodiscard]] PatchSurface remeshed() const
+  [[nodiscard]] Remeshed remeshed() const
   {
-    return remesh(reference_, surface_, sizes_, &model_, rims_.are_none() ? nullptr : &rims_);
+    return remesh(reference_, remeshed_.surface, sizes_, &model_,
+                  rims_.are_none() ? nullptr : &rims_);
   }
 
   // What one side wants, the other one gets as well.
   void match_sides()
   {
-    sizes_.limit(rims_.sizes_of_images(surface_, sizes_));
-    surface_ = remeshed();
+    sizes_.limit(rims_.sizes_of_images(remeshed_.surface, sizes_));
+    remeshed_ = remeshed();
   }
 
   // Edges of half their length at some triangles, from now on.
-  [[nodiscard]] PatchSurface finer_at(const std::vector<std::size_t>& triangles)
+  [[nodiscard]] Remeshed finer_at(const std::vector<std::size_t>& triangles)
   {
     std::vector<SizeSource> sources;
     for (const std::size_t t : triangles) {
-      const std::array<Vec3, 3> p = surface_.corners(t);
+      const std::array<Vec3, 3> p = remeshed_.surface.corners(t);
       sources.push_back({p, 0.5 * sizes_(middle_of(p))});
     }
     sizes_.limit(sources);
-    PatchSurface finer = remeshed();
-    put_on_geometry(finer, reference_, model_);
+    Remeshed finer = remeshed();
+    put_on_geometry(finer.surface, reference_, model_);
     return finer;
   }
 
@@ -258,7 +267,7 @@ class Finer {
   const model::Model& model_;
   PeriodicRims rims_;
   SizeFunction sizes_;
-  PatchSurface surface_;
+  Remeshed remeshed_;
   Defeatured defeatured_{};
   std::size_t most_triangles_ = 0;
 };

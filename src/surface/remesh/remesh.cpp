@@ -280,24 +280,25 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
         thin_walls_of(surface, reference.surface().patch_materials, options.max_size);
     sources.insert(sources.end(), walls.begin(), walls.end());
   }
+  const std::vector<SizeSource> of_model = sizes_of_model(start);
+  sources.insert(sources.end(), of_model.begin(), of_model.end());
   sizes.limit(sources);
-  sizes.limit(sizes_of_model(start));
   return sizes;
 }
 
-PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
-                    const SizeFunction& sizes, const model::Model* model, const PeriodicRims* rims)
+Remeshed remesh(const SurfaceReference& reference, const PatchSurface& start,
+                const SizeFunction& sizes, const model::Model* model, const PeriodicRims* rims)
 {
   // Most surfaces do not come to cut themselves, and guarding steps takes as long as all else.
   PatchSurface surface = Remesher(reference, start, sizes, model, true).run(rims);
-  if (find_overlaps(surface).empty()) return surface;
-  return Remesher(reference, start, sizes, model, false).run(rims);
+  if (find_overlaps(surface).empty()) return {std::move(surface), true};
+  return {Remesher(reference, start, sizes, model, false).run(rims), false};
 }
 
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)
 {
   const PatchSurface& start = reference.surface();
-  return remesh(reference, start, size_function_of(reference, options));
+  return remesh(reference, start, size_function_of(reference, options)).surface;
 }
 
 }  // namespace tessera::surface

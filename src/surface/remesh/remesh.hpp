@@ -10,6 +10,12 @@ namespace tessera::surface {
 
 class PeriodicRims;
 
+/// @brief What remeshing makes.
+struct Remeshed {
+  PatchSurface surface{};
+  bool is_without_cuts = false;  ///< It is known to cut itself nowhere.
+};
+
 /// @brief A surface with well-shaped triangles of the wanted sizes on the reference. Local.
 ///
 /// Round by round its edges are split, collapsed and flipped and its vertices smoothed. Curves stay
@@ -28,9 +34,9 @@ class PeriodicRims;
 /// @param[in] model  If given, vertices on curves come to lie on its curves.
 /// @param[in] rims  If given, curves that are images of each other get vertices that are.
 /// @pre validate() accepts the reference's surface.
-[[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
-                                  const SizeFunction& sizes, const model::Model* model = nullptr,
-                                  const PeriodicRims* rims = nullptr);
+[[nodiscard]] Remeshed remesh(const SurfaceReference& reference, const PatchSurface& start,
+                              const SizeFunction& sizes, const model::Model* model = nullptr,
+                              const PeriodicRims* rims = nullptr);
 
 /// @brief The sizes that the options and the surface ask for: shorter edges where it bends, in
 /// narrow strips and at thin walls, and where the model itself wants them. Local.

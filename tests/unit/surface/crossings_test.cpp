@@ -199,7 +199,7 @@ PatchSurface shells_on_spheres(double inner)
   const SurfaceReference reference(shells);
   CoarseOptions finer = rough();
   finer.max_size *= 0.35;
-  PatchSurface surface = remesh(reference, shells, SizeFunction(finer));
+  PatchSurface surface = remesh(reference, shells, SizeFunction(finer)).surface;
   EXPECT_TRUE(find_overlaps(surface).empty());
   EXPECT_GT(surface.triangles.size(), shells.triangles.size());
   put_on_geometry(surface, reference, testing::SphereModel({inner, 1.0}));
@@ -242,10 +242,10 @@ TEST(SizeFunction, MakesEdgesShorterAroundASource)
   CoarseOptions options = rough();
   options.max_size = 0.3;
   SizeFunction sizes = size_function_of(reference, options);
-  const PatchSurface before = remesh(reference, ball, sizes);
+  const PatchSurface before = remesh(reference, ball, sizes).surface;
   const Vec3 place = before.vertex_xyz[0];
   sizes.limit({{{place, place, place}, 0.1 * sizes(place)}});
-  const PatchSurface after = remesh(reference, before, sizes);
+  const PatchSurface after = remesh(reference, before, sizes).surface;
   EXPECT_NO_THROW(validate(after));
   EXPECT_GT(after.triangles.size(), before.triangles.size() + 10);
 }

@@ -109,7 +109,7 @@ TEST(PatchFolds, AreNotLeftByTheRemesher)
 {
   const LedgeModel model;
   const SurfaceReference reference(ledge(64));
-  PatchSurface before = remesh(reference, reference.surface(), SizeFunction(large()));
+  PatchSurface before = remesh(reference, reference.surface(), SizeFunction(large())).surface;
   put_on_geometry(before, reference, model);
   ASSERT_FALSE(folding_triangles(before, reference, model).empty());
 

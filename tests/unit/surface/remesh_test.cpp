@@ -191,7 +191,7 @@ TEST(Remesh, PutsVerticesOfCurvesOnTheModel)
   } const model;
   const SurfaceReference reference(cube());
   const PatchSurface bent =
-      remesh(reference, reference.surface(), SizeFunction(of_size(0.3)), &model);
+      remesh(reference, reference.surface(), SizeFunction(of_size(0.3)), &model).surface;
   int count = 0;
   for (const auto& edge : bent.edges) {
     for (const LocalIndex v : edge) {
