@@ -21,7 +21,7 @@ EditableSurface::EditableSurface(const PatchSurface& surface, std::vector<double
       curve_ends_(surface.vertex_xyz.size())
 {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (const LocalIndex v : triangles_[t]) around_[at(v)].push_back(static_cast<LocalIndex>(t));
+    for (const LocalIndex v : triangles_[t]) around_[at(v)].add(static_cast<LocalIndex>(t));
   }
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
     const auto [a, b] = surface.edges[e];
@@ -40,7 +40,7 @@ std::vector<LocalIndex> EditableSurface::triangles_at(const Edge& edge) const
 {
   std::vector<LocalIndex> found;
   found.reserve(2);
-  for (const LocalIndex t : around_[at(edge[0])]) {
+  for (const LocalIndex t : triangles_of(edge[0])) {
     if (holds(triangles_[at(t)], edge[1])) found.push_back(t);
   }
   return found;
@@ -49,8 +49,8 @@ std::vector<LocalIndex> EditableSurface::triangles_at(const Edge& edge) const
 std::vector<LocalIndex> EditableSurface::neighbours(LocalIndex v) const
 {
   std::vector<LocalIndex> found;
-  found.reserve(around_[at(v)].size() + 1);
-  for (const LocalIndex t : around_[at(v)]) {
+  found.reserve(triangles_of(v).size() + 1);
+  for (const LocalIndex t : triangles_of(v)) {
     for (const LocalIndex other : triangles_[at(t)]) {
       if (other != v) add_if_new(other, found);
     }
@@ -61,12 +61,13 @@ std::vector<LocalIndex> EditableSurface::neighbours(LocalIndex v) const
 
 bool EditableSurface::has_edge(LocalIndex a, LocalIndex b) const
 {
-  return std::ranges::any_of(around_[at(a)],
+  return std::ranges::any_of(triangles_of(a),
                              [&](LocalIndex t) { return holds(triangles_[at(t)], b); });
 }
 
 LocalIndex EditableSurface::curve(LocalIndex a, LocalIndex b) const
 {
+  if (freedom(a) == Freedom::patch) return kNoIndex;  // Most vertices: nothing is read of them.
   const auto found = std::ranges::find(curve_ends_[at(a)], b, &CurveEnd::vertex);
   return found == curve_ends_[at(a)].end() ? kNoIndex : found->curve;
 }
@@ -127,25 +128,21 @@ Vec3 EditableSurface::middle_of_neighbours(LocalIndex v) const
   }
   // Within a patch every neighbour is a corner of two triangles.
   Vec3 sum{};
-  for (const LocalIndex t : around_[at(v)]) {
+  for (const LocalIndex t : triangles_of(v)) {
     for (const LocalIndex other : triangles_[at(t)]) {
       if (other != v) sum = sum + xyz(other);
     }
   }
-  return (0.5 / static_cast<double>(around_[at(v)].size())) * sum;
+  return (0.5 / static_cast<double>(triangles_of(v).size())) * sum;
 }
 
-void EditableSurface::detach(LocalIndex t, LocalIndex v)
-{
-  std::vector<LocalIndex>& around = around_[at(v)];
-  around.erase(std::ranges::find(around, t));
-}
+void EditableSurface::detach(LocalIndex t, LocalIndex v) { around_[at(v)].remove(t); }
 
 void EditableSurface::replace(LocalIndex t, LocalIndex old, LocalIndex by)
 {
   triangles_[at(t)] = replaced(triangles_[at(t)], old, by);
   detach(t, old);
-  around_[at(by)].push_back(t);
+  around_[at(by)].add(t);
 }
 
 LocalIndex EditableSurface::split(const Edge& edge, const Vec3& xyz)
@@ -160,7 +157,7 @@ LocalIndex EditableSurface::split(const Edge& edge, const Vec3& xyz)
     const auto second = static_cast<LocalIndex>(triangles_.size());
     triangles_.push_back(replaced(triangles_[at(t)], a, middle));
     patch_.push_back(patch_[at(t)]);
-    for (const LocalIndex v : triangles_.back()) around_[at(v)].push_back(second);
+    for (const LocalIndex v : triangles_.back()) around_[at(v)].add(second);
     replace(t, b, middle);
   }
   const LocalIndex on = curve(a, b);
@@ -184,11 +181,11 @@ bool EditableSurface::can_collapse(LocalIndex gone, LocalIndex kept) const
   // Only opposite corners of triangles at the edge may be neighbours of both, each of one triangle
   // (the link condition).
   const auto num_opposite_to = [&](LocalIndex other) {
-    return std::ranges::count_if(around_[at(gone)], [&](LocalIndex t) {
+    return std::ranges::count_if(triangles_of(gone), [&](LocalIndex t) {
       return holds(triangles_[at(t)], kept) && holds(triangles_[at(t)], other);
     });
   };
-  return std::ranges::all_of(around_[at(gone)], [&](LocalIndex t) {
+  return std::ranges::all_of(triangles_of(gone), [&](LocalIndex t) {
     return std::ranges::all_of(triangles_[at(t)], [&](LocalIndex other) {
       if (other == gone || other == kept) return true;
       return num_opposite_to(other) == (has_edge(other, kept) ? 1 : 0);
@@ -206,8 +203,8 @@ void EditableSurface::collapse(LocalIndex gone, LocalIndex kept)
     }
   }
   freedom_[at(kept)] = std::max(freedom(kept), freedom(gone));
-  const std::vector<LocalIndex> around = around_[at(gone)];
-  for (const LocalIndex t : around) {
+  const ShortList around = around_[at(gone)];
+  for (const LocalIndex t : around.values()) {
     if (!holds(triangles_[at(t)], kept)) {
       replace(t, gone, kept);
       continue;
@@ -221,7 +218,7 @@ std::optional<EditableSurface::Flip> EditableSurface::flipped(const Edge& edge) 
 {
   Flip flip;
   std::size_t count = 0;
-  for (const LocalIndex t : around_[at(edge[0])]) {
+  for (const LocalIndex t : triangles_of(edge[0])) {
     if (!holds(triangles_[at(t)], edge[1])) continue;
     if (count == 2) return std::nullopt;
     flip.triangles[count++] = t;
@@ -241,7 +238,7 @@ void EditableSurface::flip(const Flip& flip)
     const LocalIndex t = flip.triangles[side];
     for (const LocalIndex v : triangle(t)) detach(t, v);
     triangles_[at(t)] = flip.made[side];
-    for (const LocalIndex v : triangle(t)) around_[at(v)].push_back(t);
+    for (const LocalIndex v : triangle(t)) around_[at(v)].add(t);
   }
 }
 

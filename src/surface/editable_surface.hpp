@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "tessera/base/triangle.hpp"
 #include "tessera/surface/patch_surface.hpp"
+
+#include "surface/short_list.hpp"
 
 namespace tessera::surface {
 
@@ -30,6 +33,16 @@ enum class Freedom : char { patch, curve, none };
 [[nodiscard]] inline PatchSurface::Edge edge_of(LocalIndex a, LocalIndex b)
 {
   return {std::min(a, b), std::max(a, b)};
+}
+
+/// @brief Among the few edges from row `first` on, which ascend. Most edges come twice.
+inline void insert_if_new(const PatchSurface::Edge& edge, std::size_t first,
+                          std::vector<PatchSurface::Edge>& edges)
+{
+  std::size_t row = edges.size();
+  while (row > first && edges[row - 1][1] > edge[1]) --row;
+  if (row > first && edges[row - 1][1] == edge[1]) return;
+  edges.insert(edges.begin() + static_cast<std::ptrdiff_t>(row), edge);
 }
 
 /// @brief For a few values, among which most come twice.
@@ -72,7 +85,7 @@ class EditableSurface {
     return edges([](LocalIndex /*v*/) { return true; });
   }
   [[nodiscard]] LocalIndex num_vertices() const { return static_cast<LocalIndex>(xyz_.size()); }
-  [[nodiscard]] bool is_vertex(LocalIndex v) const { return !around_[at(v)].empty(); }
+  [[nodiscard]] bool is_vertex(LocalIndex v) const { return !around_[at(v)].is_empty(); }
   [[nodiscard]] const Vec3& xyz(LocalIndex v) const { return xyz_[at(v)]; }
   [[nodiscard]] double size(LocalIndex v) const { return sizes_[at(v)]; }
   [[nodiscard]] Freedom freedom(LocalIndex v) const { return freedom_[at(v)]; }
@@ -91,9 +104,15 @@ class EditableSurface {
   }
   /// @brief Its corners, beginning with `first`.
   [[nodiscard]] std::array<Vec3, 3> corners_from(LocalIndex t, LocalIndex first) const;
-  [[nodiscard]] const std::vector<LocalIndex>& triangles_of(LocalIndex v) const
+  /// @brief In the order in which they came to it.
+  [[nodiscard]] std::span<const LocalIndex> triangles_of(LocalIndex v) const
   {
-    return around_[at(v)];
+    return around_[at(v)].values();
+  }
+  /// @brief The same; they stay what they are when the surface changes.
+  [[nodiscard]] std::vector<LocalIndex> copied_triangles_of(LocalIndex v) const
+  {
+    return {triangles_of(v).begin(), triangles_of(v).end()};
   }
   [[nodiscard]] std::vector<LocalIndex> triangles_at(const Edge& edge) const;
   [[nodiscard]] std::vector<LocalIndex> neighbours(LocalIndex v) const;  ///< Ascending.
@@ -154,7 +173,7 @@ class EditableSurface {
   std::vector<Freedom> freedom_{};
   std::vector<Triangle> triangles_;  // Corner 0 of a removed one is kNoIndex.
   std::vector<LocalIndex> patch_;
-  std::vector<std::vector<LocalIndex>> around_{};  // Triangles of each vertex.
+  std::vector<ShortList> around_{};                // Triangles of each vertex.
   std::vector<std::vector<CurveEnd>> curve_ends_;  // At each vertex, ascending.
 };
 
@@ -162,17 +181,14 @@ template <class Counts>
 std::vector<EditableSurface::Edge> EditableSurface::edges(const Counts& counts) const
 {
   std::vector<Edge> all;
-  std::vector<LocalIndex> higher;
   for (LocalIndex a = 0; a < num_vertices(); ++a) {
-    if (around_[at(a)].empty() || !counts(a)) continue;
-    higher.clear();
-    for (const LocalIndex t : around_[at(a)]) {
+    if (!is_vertex(a) || !counts(a)) continue;
+    const std::size_t first = all.size();
+    for (const LocalIndex t : triangles_of(a)) {
       for (const LocalIndex b : triangles_[at(t)]) {
-        if (b > a && counts(b)) add_if_new(b, higher);
+        if (b > a && counts(b)) insert_if_new({a, b}, first, all);
       }
     }
-    std::ranges::sort(higher);
-    for (const LocalIndex b : higher) all.push_back({a, b});
   }
   return all;
 }

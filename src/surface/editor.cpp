@@ -248,7 +248,7 @@ LocalIndex SurfaceEditor::split(const Edge& edge, double part)
   const bool is_free = !guard_ || cuts_nothing(old, halves(old, edge, wanted), is_inside);
   const LocalIndex middle = surface_.split(edge, is_free ? wanted : chord);
   surface_.set_size(middle, sizes_(surface_.xyz(middle)));
-  const std::vector<LocalIndex>& made = surface_.triangles_of(middle);
+  const std::span<const LocalIndex> made = surface_.triangles_of(middle);
   note_change(made);
   if (guard_) guard_changed(made, old.front());
   return middle;
@@ -305,7 +305,7 @@ bool SurfaceEditor::collapse(LocalIndex gone, LocalIndex kept, double least)
       || !keeps_curve(gone, kept)) {
     return false;
   }
-  const std::vector<LocalIndex> old = surface_.triangles_of(gone);
+  const std::vector<LocalIndex> old = surface_.copied_triangles_of(gone);
   std::vector<LocalIndex> left;
   Candidates made;
   for (const LocalIndex t : old) {
@@ -362,7 +362,7 @@ bool SurfaceEditor::move(LocalIndex v, const Vec3& wanted, double least)
   const Vec3 before = surface_.xyz(v);
   surface_.move(v, place_for(v, wanted));
   const Candidates made = ring_of(v);
-  const std::vector<LocalIndex>& around = surface_.triangles_of(v);
+  const std::span<const LocalIndex> around = surface_.triangles_of(v);
   const bool is_inside = surface_.freedom(v) == Freedom::patch;
   if (!all_better(made, least) || !cuts_nothing(around, made, is_inside)) {
     surface_.move(v, before);
@@ -376,7 +376,7 @@ bool SurfaceEditor::move(LocalIndex v, const Vec3& wanted, double least)
 void SurfaceEditor::put_at(LocalIndex v, const Vec3& place)
 {
   surface_.move(v, place);
-  const std::vector<LocalIndex>& around = surface_.triangles_of(v);
+  const std::span<const LocalIndex> around = surface_.triangles_of(v);
   note_change(around);
   if (guard_) guard_changed(around, around.front());
 }

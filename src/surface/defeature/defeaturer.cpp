@@ -109,7 +109,7 @@ bool Defeaturer::collapse(LocalIndex gone, LocalIndex kept)
   if (!std::ranges::all_of(at_edge, [&](LocalIndex t) { return may_vanish(t, {gone, kept}); }))
     return false;
   if (!may_go(gone, surface_.xyz(kept)) || !keeps_domains_closed(gone, kept)) return false;
-  Step step{.at = kept, .old = surface_.triangles_of(gone)};
+  Step step{.at = kept, .old = surface_.copied_triangles_of(gone)};
   for (const LocalIndex t : step.old) {
     const Triangle& v = surface_.triangle(t);
     if (!holds(v, kept)) add(replaced(v, gone, kept), t, step);
@@ -177,7 +177,7 @@ void Defeaturer::split(const Edge& edge, LocalIndex v, const Vec3& point)
   for (LocalIndex t = guard_.num_triangles(); t < surface_.num_triangles(); ++t) {
     guard_.add({surface_.triangle(t), surface_.corners(t)}, beside);
   }
-  const Triangles changed = surface_.triangles_of(middle);
+  const Triangles changed = surface_.copied_triangles_of(middle);
   surface_.collapse(middle, v);
   update_guard(changed);
 }
@@ -218,7 +218,7 @@ bool Defeaturer::is_tied(const Edge& edge, LocalIndex cap) const
 Defeaturer::Step Defeaturer::step_into(const Edge& edge, LocalIndex cap, const Vec3& point) const
 {
   const LocalIndex v = opposite(cap, edge);
-  Step step{.at = v, .old = surface_.triangles_of(v)};
+  Step step{.at = v, .old = surface_.copied_triangles_of(v)};
   for (const LocalIndex t : step.old) {
     if (t != cap) add(surface_.triangle(t), t, step);
   }

@@ -96,7 +96,7 @@ class Defeaturer {
   [[nodiscard]] bool may_go(LocalIndex v, const Vec3& point) const;
   void note(const Merge& merge);
 
-  [[nodiscard]] Triangles in_domain(const Triangles& triangles, LocalIndex domain) const;
+  [[nodiscard]] Triangles in_domain(std::span<const LocalIndex> triangles, LocalIndex domain) const;
   [[nodiscard]] std::vector<LocalIndex> link_of(LocalIndex v, const Triangles& triangles) const;
   [[nodiscard]] bool keeps_domains_closed(LocalIndex gone, LocalIndex kept) const;
   [[nodiscard]] bool keeps_closed(LocalIndex domain, LocalIndex gone, LocalIndex kept) const;

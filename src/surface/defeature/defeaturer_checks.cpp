@@ -57,7 +57,8 @@ PatchSurface::Triangle sorted(PatchSurface::Triangle triangle)
 
 }  // namespace
 
-Defeaturer::Triangles Defeaturer::in_domain(const Triangles& triangles, LocalIndex domain) const
+Defeaturer::Triangles Defeaturer::in_domain(std::span<const LocalIndex> triangles,
+                                            LocalIndex domain) const
 {
   Triangles found;
   for (const LocalIndex t : triangles) {

@@ -294,7 +294,7 @@ class FoldMender {
       groups_.place_on_group(surface_.patch(t), middle, edge[0], point);
     }
     if (beyond) surface_.flip(*surface_.flipped(*beyond));
-    const std::vector<LocalIndex>& changed = surface_.triangles_of(middle);
+    const std::span<const LocalIndex> changed = surface_.triangles_of(middle);
     touched_.insert(changed.begin(), changed.end());
     return true;
   }

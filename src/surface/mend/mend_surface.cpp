@@ -269,7 +269,7 @@ class Mender {
     if (curve == kNoIndex || surface_.freedom(gone) != Freedom::patch) return false;
     if (groups_.model_curve(curve) == kNoIndex) return false;
     const Vec3 point = groups_.on_curve(curve, edge[0], surface_.xyz(gone));
-    std::vector<LocalIndex> old = surface_.triangles_of(gone);
+    std::vector<LocalIndex> old = surface_.copied_triangles_of(gone);
     std::vector<Candidate> candidates;
     for (const LocalIndex other : old) {
       if (other != t) add_moved(other, gone, point, candidates);
@@ -322,7 +322,7 @@ class Mender {
     for (const LocalIndex other : around) sum = sum + surface_.xyz(other);
     const Vec3 step = (1.0 / static_cast<double>(around.size())) * sum - surface_.xyz(v);
     const LocalIndex curve = is_on_curve ? surface_.curve(v, around.front()) : kNoIndex;
-    const std::vector<LocalIndex>& triangles = surface_.triangles_of(v);
+    const std::span<const LocalIndex> triangles = surface_.triangles_of(v);
     const LocalIndex group = surface_.patch(triangles.front());
     for (const double share : {1.0, 0.5, 0.25}) {
       const Vec3 wanted = surface_.xyz(v) + share * step;
