@@ -53,6 +53,7 @@ SurfaceEditor::SurfaceEditor(const SurfaceReference& reference, const PatchSurfa
       sizes_(sizes),
       model_(model),
       changed_(start.vertex_xyz.size(), 0),
+      touched_(start.vertex_xyz.size(), 0),
       shapes_(start.triangles.size(), kUnknown),
       normals_(start.vertex_xyz.size())
 {
@@ -107,20 +108,22 @@ bool SurfaceEditor::is_upright(const PlacedTriangle& one)
   return dot(n, reference_.normal(one.patch, middle)) >= least;
 }
 
-SurfaceEditor::PlacedNormal& SurfaceEditor::known_normal(LocalIndex v, LocalIndex patch)
+SurfaceEditor::KnownNormal& SurfaceEditor::known_normal(LocalIndex v, LocalIndex patch)
 {
   normals_.resize(std::max(normals_.size(), at(v) + 1));
-  std::vector<PlacedNormal>& known = normals_[at(v)];
-  const auto found = std::ranges::find(known, patch, &PlacedNormal::patch);
-  return found != known.end() ? *found : known.emplace_back(PlacedNormal{patch});
+  std::vector<KnownNormal>& known = normals_[at(v)];
+  const auto found = std::ranges::find(known, patch, &KnownNormal::patch);
+  return found != known.end() ? *found : known.emplace_back(KnownNormal{patch});
 }
 
 const Vec3& SurfaceEditor::normal_at(LocalIndex v, LocalIndex patch, const Vec3& place)
 {
   if (const Vec3* const all = reference_.normal_of_plane(patch)) return *all;
-  PlacedNormal& known = known_normal(v, patch);
-  if (known.place != place) known = {patch, place, reference_.normal(patch, place)};
-  return known.normal;
+  KnownNormal& known = known_normal(v, patch);
+  if (known.came_at(place)) return known.came.normal;
+  known.came_last = false;
+  if (known.asked.place != place) known.asked = {place, reference_.normal(patch, place)};
+  return known.asked.normal;
 }
 
 Vec3 SurfaceEditor::along(LocalIndex v, const Vec3& vector)
@@ -142,6 +145,17 @@ void SurfaceEditor::note_change(std::span<const LocalIndex> triangles)
   for (const LocalIndex t : triangles) {
     shapes_[at(t)] = kUnknown;
     for (const LocalIndex v : surface_.triangle(t)) changed_[at(v)] = pass_;
+  }
+  touch(triangles);
+}
+
+// Steps at their vertices may come to something else now.
+void SurfaceEditor::touch(std::span<const LocalIndex> triangles)
+{
+  ++num_changes_;
+  touched_.resize(at(surface_.num_vertices()), num_changes_);
+  for (const LocalIndex t : triangles) {
+    for (const LocalIndex v : surface_.triangle(t)) touched_[at(v)] = num_changes_;
   }
 }
 
@@ -351,7 +365,12 @@ Vec3 SurfaceEditor::place_for(LocalIndex v, const Vec3& wanted)
   const LocalIndex patch = surface_.patch(surface_.triangles_of(v).front());
   if (reference_.normal_of_plane(patch) != nullptr) return wanted;
   const auto [place, normal] = reference_.place_on_patch(patch, wanted);
-  known_normal(v, patch) = {patch, place, normal};
+  KnownNormal& known = known_normal(v, patch);
+  const Vec3& now = surface_.xyz(v);
+  // Even if the vertex stays where it is, another normal may count there from now on.
+  if (known.came_at(now) || place == now) touch(surface_.triangles_of(v));
+  known.came = {place, normal};
+  known.came_last = true;
   return place;
 }
 

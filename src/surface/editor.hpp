@@ -28,6 +28,9 @@ inline constexpr double kFairShape = 0.35;
 /// A step that is to make a shape better does so by this at least, against steps back and forth.
 inline constexpr double kGain = 1e-3;
 
+/// A number of changes: before the first.
+inline constexpr int kNever = -1;
+
 /// @brief A surface that follows a reference while it is edited: the steps that change it, each of
 /// which is taken only if no triangle turns over, cuts another one, or gets a worse shape than the
 /// caller allows. Local.
@@ -52,6 +55,14 @@ class SurfaceEditor {
   int begin_pass() { return ++pass_; }
   /// @brief Whether a triangle around the vertex changed in this pass or later.
   [[nodiscard]] bool has_changed(LocalIndex v, int pass) const { return changed_[at(v)] >= pass; }
+  /// @brief How many changes there have been.
+  [[nodiscard]] int num_changes() const { return num_changes_; }
+  /// @brief Whether a step at the vertex would come to what it came to when there had been so many
+  /// changes: those since then were elsewhere. If steps must not cut, it is unknown.
+  [[nodiscard]] bool is_as_it_was(LocalIndex v, int num_changes) const
+  {
+    return !guard_ && touched_[at(v)] <= num_changes;
+  }
   /// @brief Edges both of whose ends have changed in this pass or later, ascending.
   [[nodiscard]] std::vector<Edge> changed_edges(int pass) const;
 
@@ -99,9 +110,20 @@ class SurfaceEditor {
   using Candidates = std::vector<PlacedTriangle>;  // What a step would make.
 
   struct PlacedNormal {
-    LocalIndex patch = kNoIndex;
     Vec3 place = kNoPoint;
     Vec3 normal{};
+  };
+
+  // What is known of the normal at a vertex. The one that came with a place counts until another
+  // place is asked for. Between two triangles of the reference it may not be the one that is asked
+  // for there.
+  struct KnownNormal {
+    LocalIndex patch = kNoIndex;
+    PlacedNormal asked{};
+    PlacedNormal came{};
+    bool came_last = false;
+
+    [[nodiscard]] bool came_at(const Vec3& place) const { return came_last && came.place == place; }
   };
 
   [[nodiscard]] PlacedTriangle placed(const Triangle& v, LocalIndex patch) const;
@@ -113,7 +135,7 @@ class SurfaceEditor {
   void guard_changed(std::span<const LocalIndex> made, LocalIndex beside);
   [[nodiscard]] bool is_upright(const PlacedTriangle& one);
   [[nodiscard]] const Vec3& normal_at(LocalIndex v, LocalIndex patch, const Vec3& place);
-  [[nodiscard]] PlacedNormal& known_normal(LocalIndex v, LocalIndex patch);
+  [[nodiscard]] KnownNormal& known_normal(LocalIndex v, LocalIndex patch);
   [[nodiscard]] Vec3 place_for(LocalIndex v, const Vec3& wanted);
   [[nodiscard]] Vec3 on_reference(const Edge& edge, const Vec3& point) const;
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point, double size) const;
@@ -123,6 +145,7 @@ class SurfaceEditor {
   [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const;
   [[nodiscard]] bool keeps_lengths(LocalIndex gone, LocalIndex kept) const;
   void note_change(std::span<const LocalIndex> triangles);
+  void touch(std::span<const LocalIndex> triangles);
   void put(LocalIndex t, const PlacedTriangle& one);
 
   const SurfaceReference& reference_;
@@ -132,9 +155,11 @@ class SurfaceEditor {
   mutable Attempts projections_{"places on curves of the model"};
   std::optional<CrossingGuard> guard_{};
   int pass_ = 0;
-  std::vector<int> changed_;      // Of each vertex: the last pass with a change there.
+  std::vector<int> changed_;  // Of each vertex: the last pass with a change there.
+  int num_changes_ = 0;
+  std::vector<int> touched_;      // Of each vertex: the last change of what steps there ask for.
   std::vector<double> shapes_{};  // Of the triangles.
-  std::vector<std::vector<PlacedNormal>> normals_;  // Of each vertex, one a patch there.
+  std::vector<std::vector<KnownNormal>> normals_;  // Of each vertex, one a patch there.
 };
 
 }  // namespace tessera::surface

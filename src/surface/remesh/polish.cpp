@@ -51,7 +51,21 @@ class Polisher {
 
   bool polish(LocalIndex t)
   {
+    polished_at_.resize(at(surface_.num_triangles()), kNever);
     const PatchSurface::Triangle v = surface_.triangle(t);
+    if (std::ranges::all_of(v, [&](LocalIndex corner) {
+          return editor_.is_as_it_was(corner, polished_at_[at(t)]);
+        })) {
+      return false;
+    }
+    const int now = editor_.num_changes();
+    if (take_step(v)) return true;
+    polished_at_[at(t)] = now;
+    return false;
+  }
+
+  bool take_step(const PatchSurface::Triangle& v)
+  {
     for (std::size_t c = 0; c < 3; ++c) {
       if (editor_.flip_if_better(edge_of(v[c], v[(c + 1) % 3]))) return true;
     }
@@ -78,7 +92,18 @@ class Polisher {
 
   bool pull(LocalIndex v)
   {
-    if (surface_.freedom(v) == Freedom::none) return false;
+    pulled_at_.resize(at(surface_.num_vertices()), kNever);
+    if (surface_.freedom(v) == Freedom::none || editor_.is_as_it_was(v, pulled_at_[at(v)])) {
+      return false;
+    }
+    const int now = editor_.num_changes();
+    if (take_pull(v)) return true;
+    pulled_at_[at(v)] = now;
+    return false;
+  }
+
+  bool take_pull(LocalIndex v)
+  {
     const Vec3 before = surface_.xyz(v);
     const double least = better_than_around(v);
     std::vector<Vec3> targets{surface_.middle_of_neighbours(v)};
@@ -112,6 +137,10 @@ class Polisher {
 
   SurfaceEditor& editor_;
   const EditableSurface& surface_;
+  // Number of changes when no step was found, of each triangle and vertex: what was tried then need
+  // not be tried again as long as nothing has changed around.
+  std::vector<int> polished_at_{};
+  std::vector<int> pulled_at_{};
 };
 
 }  // namespace

@@ -224,18 +224,27 @@ class Remesher {
     }
   }
 
+  // A vertex that did not move does not move now if nothing has changed around it.
   void smooth(LocalIndex v)
   {
+    stayed_at_.resize(at(surface_.num_vertices()), kNever);
+    if (surface_.freedom(v) == Freedom::none || editor_.is_as_it_was(v, stayed_at_[at(v)])) return;
+    const int now = editor_.num_changes();
+    if (!move_to_middle(v)) stayed_at_[at(v)] = now;
+  }
+
+  bool move_to_middle(LocalIndex v)
+  {
     const Freedom freedom = surface_.freedom(v);
-    if (freedom == Freedom::none) return;
     const Vec3 before = surface_.xyz(v);
     const Vec3 step = editor_.along(v, surface_.middle_of_neighbours(v) - before);
     const double settled = freedom == Freedom::curve ? kSettledOnCurve : kSettled;
-    if (norm(step) < settled * surface_.size(v)) return;
+    if (norm(step) < settled * surface_.size(v)) return false;
     const double least = std::clamp(editor_.worst_shape(surface_.triangles_of(v)), 0.0, kGoodShape);
     for (const double part : {1.0, 0.5, 0.25}) {
-      if (editor_.move(v, before + part * step, least)) return;
+      if (editor_.move(v, before + part * step, least)) return true;
     }
+    return false;
   }
 
   SurfaceEditor editor_;
@@ -246,6 +255,7 @@ class Remesher {
   int split_since_ = 0;
   int collapsed_since_ = 0;
   int smoothed_since_ = 0;
+  std::vector<int> stayed_at_{};  // Of each vertex: number of changes when it did not move.
 };
 
 // Normals of the model tell its curvature better than those of triangles, which may be needles.
