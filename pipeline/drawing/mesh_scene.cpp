@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tessera/base/box.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
@@ -134,11 +135,9 @@ void MeshScene::draw_cut_tet(const std::array<Vec3, 4>& corners, double mean_rat
 void MeshScene::draw_cut_tets(const mesh::MeshArrays& tets)
 {
   const auto width = static_cast<std::size_t>(tets.vertices_per_cell);
-  const std::span<const double> xyz(tets.point_xyz);
   for (GlobalIndex cell = 0; cell < tets.num_cells(); ++cell) {
-    const LocalIndex* const v = &tets.cell_points[width * static_cast<std::size_t>(cell)];
-    const std::array<Vec3, 4> corners{point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]),
-                                      point_at(xyz, v[3])};
+    const auto points = std::span(tets.cell_points).subspan(width * static_cast<std::size_t>(cell));
+    const auto corners = corners_at<4>(tets.point_xyz, points, 0);
     draw_cut_tet(corners, quality::mean_ratio(corners));
   }
 }
@@ -147,10 +146,7 @@ void MeshScene::draw_coarse_cut(const subdomain::PartitionedMesh& cut, LocalInde
                                 double mean_ratio)
 {
   for (const LocalIndex t : cut.tets[subdomain]) {
-    const auto v = cut.coarse.tet(t);
-    draw_cut_tet({cut.coarse.position(v[0]), cut.coarse.position(v[1]), cut.coarse.position(v[2]),
-                  cut.coarse.position(v[3])},
-                 mean_ratio);
+    draw_cut_tet(corners_at<4>(cut.coarse.vertex_xyz, cut.coarse.tet_vertices, t), mean_ratio);
   }
 }
 

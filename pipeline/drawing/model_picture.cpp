@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
 
 #include "pipeline/drawing/canvas.hpp"
@@ -34,11 +35,8 @@ Canvas draw_faces(const model::ModelDescription& model, const View& view)
   camera.height = kSide;
   Canvas canvas(camera);
   for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
-    std::array<Vec3, 3> corners{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      corners[c] = point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
-    }
-    canvas.draw(corners, model.triangle_face[t]);
+    canvas.draw(corners_at<3>(model.vertex_xyz, model.triangle_vertices, t),
+                model.triangle_face[t]);
   }
   return canvas;
 }

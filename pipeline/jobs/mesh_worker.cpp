@@ -14,6 +14,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
@@ -216,9 +217,8 @@ class MeshWorker final : public jobs::Worker {
   {
     std::vector<LocalIndex> tet_part;
     for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-      Vec3 sum{};
-      for (const LocalIndex v : mesh.tet(t)) sum = sum + mesh.position(v);
-      tet_part.push_back(planes.part_of(mesh.tet_material[at(t)] - 1, 0.25 * sum));
+      const Vec3 centroid = tet_centroid(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t));
+      tet_part.push_back(planes.part_of(mesh.tet_material[at(t)] - 1, centroid));
     }
     return tet_part;
   }

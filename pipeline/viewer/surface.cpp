@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
@@ -45,11 +46,9 @@ class TetRows {
 
 std::uint8_t quality_of(const mesh::MeshArrays& tets, std::size_t row)
 {
-  const std::span<const double> xyz(tets.point_xyz);
-  const LocalIndex* const v =
-      &tets.cell_points[row * static_cast<std::size_t>(tets.vertices_per_cell)];
-  return quality_byte(quality::mean_ratio(std::array{point_at(xyz, v[0]), point_at(xyz, v[1]),
-                                                     point_at(xyz, v[2]), point_at(xyz, v[3])}));
+  const auto points =
+      std::span(tets.cell_points).subspan(row * static_cast<std::size_t>(tets.vertices_per_cell));
+  return quality_byte(quality::mean_ratio(corners_at<4>(tets.point_xyz, points, 0)));
 }
 
 // Of each boundary cell.

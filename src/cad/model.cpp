@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/surface/on_geometry.hpp"
 
@@ -242,11 +243,10 @@ void CadModel::guess_parameters(const surface::SurfaceReference& reference, mesh
 {
   constexpr double kInside = 0.1;
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    const Vec3 middle = middle_of({mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])});
+    const auto corners = corners_at<3>(mesh.vertex_xyz, mesh.face_vertices, f);
+    const Vec3 middle = middle_of(corners);
     const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3 corner = mesh.position(v[c]);
+    for (const Vec3& corner : corners) {
       const auto uv = reference.parameters(surface, corner + kInside * (middle - corner));
       mesh.face_uv.insert(mesh.face_uv.end(), uv.begin(), uv.end());
     }
@@ -267,10 +267,9 @@ void CadModel::locate_face_corners(mesh::CoarseMesh& mesh) const
     const auto at = static_cast<std::size_t>(f);
     const LocalIndex patch = mesh.face_patch[at];
     if (patch == kNoIndex) continue;  // Of a cut.
-    std::array<Vec3, 3> corners{};
+    const auto corners = corners_at<3>(mesh.vertex_xyz, mesh.face_vertices, f);
     std::array<model::SurfaceParameters, 3> guesses{};
     for (std::size_t c = 0; c < 3; ++c) {
-      corners[c] = mesh.position(mesh.face_vertices[3 * at + c]);
       guesses[c] = {mesh.face_uv[2 * (3 * at + c)], mesh.face_uv[2 * (3 * at + c) + 1]};
     }
     const LocalIndex surface = mesh.patch_surface[static_cast<std::size_t>(patch)];

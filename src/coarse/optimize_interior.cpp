@@ -5,6 +5,7 @@
 #include <array>
 
 #include "tessera/base/index_lists.hpp"
+#include "tessera/base/tet.hpp"
 
 #include "coarse/child_energy.hpp"
 #include "coarse/flip_tets.hpp"
@@ -50,9 +51,7 @@ class Smoother {
 
   [[nodiscard]] std::array<Vec3, 4> corners_of(LocalIndex t) const
   {
-    const auto tet = mesh_.tet(t);
-    return {mesh_.position(tet[0]), mesh_.position(tet[1]), mesh_.position(tet[2]),
-            mesh_.position(tet[3])};
+    return corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t);
   }
 
   [[nodiscard]] double mean_distance(LocalIndex v) const

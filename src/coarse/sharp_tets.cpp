@@ -10,6 +10,8 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/tet.hpp"
+
 namespace tessera::coarse {
 namespace {
 
@@ -196,9 +198,9 @@ class SharpFinder {
   [[nodiscard]] SharpTet described(LocalIndex t, double angle) const
   {
     SharpTet tet{.angle_deg = angle, .shortest_edge = shortest_edge(t)};
+    tet.centre = tet_centroid(corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t));
     std::set<LocalIndex> rows;
     for (const LocalIndex v : mesh_.tet(t)) {
-      tet.centre = tet.centre + 0.25 * mesh_.position(v);
       const auto found = vertex_patches_.find(v);
       if (found == vertex_patches_.end()) continue;
       for (const LocalIndex patch : found->second) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/repair.hpp"
+#include "tessera/base/tet.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -164,9 +165,7 @@ class Snapper {
 
   [[nodiscard]] double volume(LocalIndex t) const
   {
-    const auto v = mesh_.tet(t);
-    return tet_volume(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]),
-                      mesh_.position(v[3]));
+    return tet_volume(corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t));
   }
 
   [[nodiscard]] double shortest_edge(LocalIndex v) const

@@ -11,6 +11,7 @@
 
 #include "tessera/base/enclosed_volume.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/surface_match.hpp"
 
@@ -54,10 +55,7 @@ void require_vertices_used(const FillOutput& tets)
 
 double volume_of(const FillOutput& tets, std::size_t t)
 {
-  const std::span<const double> xyz(tets.vertex_xyz);
-  const LocalIndex* v = &tets.tet_vertices[4 * t];
-  return tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]),
-                    point_at(xyz, v[3]));
+  return tet_volume(corners_at<4>(tets.vertex_xyz, tets.tet_vertices, t));
 }
 
 double positive_volume(const FillOutput& tets)

@@ -17,6 +17,7 @@
 
 #include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/coarse/own_mesh.hpp"
 #include "tessera/coarse/smooth_surface.hpp"
 #include "tessera/io/vtu.hpp"
@@ -130,9 +131,8 @@ model::ModelDescription describe_mesh(const mesh::CoarseMesh& mesh)
                                     .triangle_face = mesh.face_patch.to_vector()};
   for (const std::string& name : mesh.material_names) described.solids.push_back({.name = name});
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    const auto v = mesh.tet(t);
-    described.solids[at(mesh.tet_material[at(t)] - 1)].volume += tet_volume(
-        mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3]));
+    described.solids[at(mesh.tet_material[at(t)] - 1)].volume +=
+        tet_volume(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t));
   }
   for (const std::string& name : mesh.patch_names) {
     const auto number = static_cast<LocalIndex>(described.faces.size()) + 1;
@@ -141,9 +141,9 @@ model::ModelDescription describe_mesh(const mesh::CoarseMesh& mesh)
   std::map<std::array<LocalIndex, 3>, LocalIndex> patch_of;
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    const Vec3 a = mesh.position(v[0]);
+    const auto corners = corners_at<3>(mesh.vertex_xyz, mesh.face_vertices, f);
     model::FaceDescription& face = described.faces[at(mesh.face_patch[at(f)])];
-    face.area += 0.5 * norm(cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a));
+    face.area += triangle_area(corners[0], corners[1], corners[2]);
     patch_of[mesh::sorted_triangle(v[0], v[1], v[2])] = mesh.face_patch[at(f)];
   }
   for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {

@@ -3,21 +3,19 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <utility>
+
+#include "tessera/base/tet.hpp"
 
 namespace tessera::improve {
 
 CentroidSearch::CentroidSearch(const RegionMesh& mesh)
 {
-  const std::span<const double> xyz(mesh.vertex_xyz);
   std::vector<OldTet> tets;
   tets.reserve(at(mesh.num_tets()));
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    const LocalIndex* v = &mesh.tet_vertices[4 * at(t)];
-    const Vec3 sum =
-        point_at(xyz, v[0]) + point_at(xyz, v[1]) + point_at(xyz, v[2]) + point_at(xyz, v[3]);
-    tets.push_back({0.25 * sum, mesh.tet_owner[at(t)]});
+    tets.push_back({tet_centroid(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t)),
+                    mesh.tet_owner[at(t)]});
   }
   tree_ = SearchTree(
       mesh.num_tets(),

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -24,17 +25,14 @@ std::vector<LocalIndex> owners_of_nearest(const RegionMesh& mesh, const TetMesh&
                                           const std::vector<OwnerSet>& allowed)
 {
   const CentroidSearch search(mesh);
-  const std::span<const double> xyz(tets.vertex_xyz);
   std::vector<LocalIndex> owners(allowed.size());
   for (std::size_t t = 0; t < owners.size(); ++t) {
     if (std::has_single_bit(allowed[t])) {
       owners[t] = std::countr_zero(allowed[t]);
       continue;
     }
-    const LocalIndex* v = &tets.tet_vertices[4 * t];
-    const Vec3 sum =
-        point_at(xyz, v[0]) + point_at(xyz, v[1]) + point_at(xyz, v[2]) + point_at(xyz, v[3]);
-    owners[t] = search.nearest_owner(0.25 * sum, allowed[t]);
+    const Vec3 centroid = tet_centroid(corners_at<4>(tets.vertex_xyz, tets.tet_vertices, t));
+    owners[t] = search.nearest_owner(centroid, allowed[t]);
     if (owners[t] == kNoIndex) owners[t] = std::countr_zero(allowed[t]);
   }
   return owners;

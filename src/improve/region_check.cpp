@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/surface_match.hpp"
 
@@ -41,14 +42,11 @@ void require_in_range(const TetMesh& tets)
 double positive_volume(const std::vector<double>& vertex_xyz,
                        const std::vector<LocalIndex>& tet_vertices)
 {
-  const std::span<const double> xyz(vertex_xyz);
   double sum = 0.0;
-  for (std::size_t t = 0; t < tet_vertices.size(); t += 4) {
-    const LocalIndex* v = &tet_vertices[t];
-    const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]),
-                                     point_at(xyz, v[3]));
+  for (std::size_t t = 0; 4 * t < tet_vertices.size(); ++t) {
+    const double volume = tet_volume(corners_at<4>(vertex_xyz, tet_vertices, t));
     if (!(volume > 0.0)) {  // Written so that a NaN counts.
-      throw MeshError(fmt::format("optimised tet {} has volume {:g}", t / 4, volume));
+      throw MeshError(fmt::format("optimised tet {} has volume {:g}", t, volume));
     }
     sum += volume;
   }

@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
@@ -82,9 +83,7 @@ void validate_images(const CoarseMesh& mesh)
 void validate_tets(const CoarseMesh& mesh)
 {
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    const auto tet = mesh.tet(t);
-    const double volume = tet_volume(mesh.position(tet[0]), mesh.position(tet[1]),
-                                     mesh.position(tet[2]), mesh.position(tet[3]));
+    const double volume = tet_volume(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t));
     require(volume > 0.0, fmt::format("tet {} has volume {:g}", t, volume));
   }
 }

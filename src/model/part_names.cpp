@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 
 #include "model/criteria.hpp"
 
@@ -108,11 +109,9 @@ std::vector<std::vector<Vec3>> face_normals(const ModelDescription& model)
 {
   std::vector<std::vector<Vec3>> normals(model.faces.size());
   for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
-    const auto corner = [&](std::size_t c) {
-      return point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
-    };
-    const Vec3 a = corner(1) - corner(0);
-    const Vec3 b = corner(2) - corner(0);
+    const auto corners = corners_at<3>(model.vertex_xyz, model.triangle_vertices, t);
+    const Vec3 a = corners[1] - corners[0];
+    const Vec3 b = corners[2] - corners[0];
     const Vec3 normal = cross(a, b);
     const double longest = std::max({dot(a, a), dot(b, b), dot(b - a, b - a)});
     if (!(norm(normal) > kLeastArea * longest)) continue;

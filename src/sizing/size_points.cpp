@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -62,10 +63,8 @@ std::vector<Cell> cells_of(const mesh::CoarseMesh& coarse, const mesh::EdgeLevel
 {
   std::vector<Cell> cells;
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
-    const auto v = coarse.tet(t);
-    const std::array<Vec3, 4> corners{coarse.position(v[0]), coarse.position(v[1]),
-                                      coarse.position(v[2]), coarse.position(v[3])};
-    cells.push_back({corners, longest_part(coarse, levels, t)});
+    cells.push_back({corners_at<4>(coarse.vertex_xyz, coarse.tet_vertices, t),
+                     longest_part(coarse, levels, t)});
   }
   return cells;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 #include "tessera/model/nearest_point.hpp"
 
@@ -76,11 +77,7 @@ template <class Solid>
 bool meets(const Solid& solid, const mesh::CoarseMesh& coarse)
 {
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
-    const auto tet = coarse.tet(t);
-    if (is_near(solid, {coarse.position(tet[0]), coarse.position(tet[1]), coarse.position(tet[2]),
-                        coarse.position(tet[3])})) {
-      return true;
-    }
+    if (is_near(solid, corners_at<4>(coarse.vertex_xyz, coarse.tet_vertices, t))) return true;
   }
   return false;
 }

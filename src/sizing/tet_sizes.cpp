@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 
 #include "sizing/limit_growth.hpp"
@@ -19,11 +20,7 @@ using Corners = std::array<Vec3, 4>;
 
 Corners corners_of(const TetField& field, std::size_t tet)
 {
-  Corners corners{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    corners[i] = point_at(std::span(field.point_xyz), field.tet_points[4 * tet + i]);
-  }
-  return corners;
+  return corners_at<4>(field.point_xyz, field.tet_points, tet);
 }
 
 // Nothing can be interpolated in a flat tet, and no point lies in it.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/quality/statistics.hpp"
 
 namespace tessera::subdomain {
@@ -10,13 +11,10 @@ namespace {
 
 improve::ShapeSummary measure_shapes(const improve::TetMesh& mesh)
 {
-  const std::span<const double> xyz(mesh.vertex_xyz);
   quality::Histogram unused(0.0, 1.0, 1);
   quality::ShapeSum sum(unused);
   for (std::size_t t = 0; 4 * t < mesh.tet_vertices.size(); ++t) {
-    const LocalIndex* v = &mesh.tet_vertices[4 * t];
-    sum.add(quality::shape_of(
-        {point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]), point_at(xyz, v[3])}));
+    sum.add(quality::shape_of(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t)));
   }
   const quality::TetStatistics shapes = sum.statistics();
   return {shapes.min_dihedral_deg, shapes.min_mean_ratio, shapes.mean_mean_ratio()};

@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 
 namespace tessera::subdomain {
@@ -16,14 +17,13 @@ namespace {
 double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton,
                     const mesh::SideImages& images)
 {
-  const std::span<const double> xyz(skin.vertex_xyz);
   double area = 0.0;
   for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
     const LocalIndex parent = skin.triangle_parent[at(t)];
     if (skeleton.is_inside(parent) || images.is_joint(skeleton.triangle_patch[at(parent)]))
       continue;
-    const LocalIndex* v = &skin.triangle_vertices[3 * at(t)];
-    area += triangle_area(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]));
+    const auto [a, b, c] = corners_at<3>(skin.vertex_xyz, skin.triangle_vertices, t);
+    area += triangle_area(a, b, c);
   }
   return area;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tessera/base/index_lists.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/topology/split_patches.hpp"
 
 #include "topology/split_faces.hpp"
@@ -151,16 +152,13 @@ class Inserter {
       const Vec3 point = from + factor * (wanted - from);
       const auto is_good = [&](LocalIndex t) {
         const auto v = mesh_.tet(t);
-        std::array<Vec3, 4> corners{mesh_.position(v[0]), mesh_.position(v[1]),
-                                    mesh_.position(v[2]), mesh_.position(v[3])};
-        const auto volume = [&] {
-          return tet_volume(corners[0], corners[1], corners[2], corners[3]);
-        };
-        const double least = kLeastShare * volume() / static_cast<double>(simplex.size());
+        auto corners = corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t);
+        const double least =
+            kLeastShare * tet_volume(corners) / static_cast<double>(simplex.size());
         return std::ranges::all_of(simplex, [&](LocalIndex one) {
           const auto c = static_cast<std::size_t>(std::ranges::find(v, one) - v.begin());
           const Vec3 before = std::exchange(corners[c], point);
-          const bool is_large = volume() > least;
+          const bool is_large = tet_volume(corners) > least;
           corners[c] = before;
           return is_large;
         });

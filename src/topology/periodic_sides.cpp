@@ -14,6 +14,7 @@
 #include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/mesh/face_tets.hpp"
 #include "tessera/mesh/orbit_walk.hpp"
@@ -32,8 +33,7 @@ std::string words_of(const PeriodicSide& side)
 
 std::array<Vec3, 3> corners_of(const mesh::CoarseMesh& mesh, LocalIndex face)
 {
-  const LocalIndex* v = &mesh.face_vertices[3 * at(face)];
-  return {mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])};
+  return corners_at<3>(mesh.vertex_xyz, mesh.face_vertices, face);
 }
 
 Vec3 centroid_of(const mesh::CoarseMesh& mesh, const Faces& faces)

@@ -14,6 +14,7 @@
 
 #include "tessera/base/name_patterns.hpp"
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -146,10 +147,7 @@ Vec3 centroid_of(const model::ModelDescription& model, const std::vector<LocalIn
   for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
     const LocalIndex surface = model.faces[at(model.triangle_face[t])].number - 1;
     if (std::ranges::find(surfaces, surface) == surfaces.end()) continue;
-    const auto corner = [&](std::size_t c) {
-      return point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
-    };
-    triangles.push_back({corner(0), corner(1), corner(2)});
+    triangles.push_back(corners_at<3>(model.vertex_xyz, model.triangle_vertices, t));
   }
   return tessera::centroid_of(triangles);
 }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -52,9 +53,7 @@ void KeptTets::take_out_flat()
 
 bool KeptTets::is_flat(LocalIndex tet) const
 {
-  quality::TetCorners corners{};
-  for (std::size_t c = 0; c < 4; ++c) corners[c] = point_at(xyz_, vertices_of(tet)[c]);
-  return quality::mean_ratio(corners) < kFlat;
+  return quality::mean_ratio(corners_at<4>(xyz_, vertices_of(tet), 0)) < kFlat;
 }
 
 void KeptTets::take_out_around(std::span<const LocalIndex> vertices)

@@ -11,6 +11,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
 
 #include "coarse/domains/kept_tets.hpp"
@@ -24,12 +25,9 @@ constexpr int kMostRounds = 4;
 
 double volume_of(const surface::DomainTets& tets)
 {
-  const std::span<const double> xyz = tets.vertex_xyz;
   double volume = 0.0;
-  for (std::size_t i = 0; i < tets.tet_vertices.size(); i += 4) {
-    const LocalIndex* v = &tets.tet_vertices[i];
-    volume += tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]),
-                         point_at(xyz, v[3]));
+  for (std::size_t t = 0; 4 * t < tets.tet_vertices.size(); ++t) {
+    volume += tet_volume(corners_at<4>(tets.vertex_xyz, tets.tet_vertices, t));
   }
   return volume;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/model/winding.hpp"
 
@@ -19,12 +20,8 @@ constexpr double kLeastCosine = 0.1;
 std::vector<std::array<Vec3, 3>> triangles_of(const surface::DomainSkin& skin)
 {
   std::vector<std::array<Vec3, 3>> triangles;
-  for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 3) {
-    std::array<Vec3, 3> corners{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      corners[c] = point_at(std::span(skin.vertex_xyz), skin.triangle_vertices[i + c]);
-    }
-    triangles.push_back(corners);
+  for (std::size_t t = 0; 3 * t < skin.triangle_vertices.size(); ++t) {
+    triangles.push_back(corners_at<3>(skin.vertex_xyz, skin.triangle_vertices, t));
   }
   return triangles;
 }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/model/nearest_point.hpp"
 
@@ -63,8 +64,7 @@ class Fitter {
 
   [[nodiscard]] std::array<Vec3, 3> corners_of(LocalIndex f) const
   {
-    const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
-    return {mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
+    return corners_at<3>(mesh_.vertex_xyz, mesh_.face_vertices, f);
   }
 
   // What users see of a patch: `tessera info` counts from 1.
@@ -296,9 +296,7 @@ class Fitter {
 
   [[nodiscard]] double volume(LocalIndex t) const
   {
-    const auto v = mesh_.tet(t);
-    return tet_volume(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]),
-                      mesh_.position(v[3]));
+    return tet_volume(corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t));
   }
 
   // One patch for each pair of a face and a tag. Named ones stay in the row of their name, the

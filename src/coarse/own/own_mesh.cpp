@@ -14,6 +14,7 @@
 
 #include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/tet.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/surface/touching_faces.hpp"
@@ -149,12 +150,9 @@ class OwnMeshBuilder {
 
   [[nodiscard]] double signed_volume(std::size_t t) const
   {
-    std::array<Vec3, 4> corners{};
-    for (std::size_t c = 0; c < 4; ++c) {
-      corners[c] = own_.mesh.position(own_.mesh.tet_vertices[4 * t + c]);
-    }
+    const auto corners = corners_at<4>(own_.mesh.vertex_xyz, own_.mesh.tet_vertices, t);
     const double longest = mesh::longest_edge(corners);
-    const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
+    const double volume = tet_volume(corners);
     if (std::abs(volume) > kFlat * longest * longest * longest) return volume;
     fail(
         fmt::format("{} is flat: its volume is {:g}, and its longest edge {:g}; repair the mesh in "

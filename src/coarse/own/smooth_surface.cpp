@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
 
 #include "coarse/own/own_patches.hpp"
@@ -55,9 +56,7 @@ SmoothSurface::SmoothSurface(const mesh::CoarseMesh& mesh, double feature_angle_
     : mesh_(&mesh), edge_faces_(faces_of_edges(mesh.face_vertices))
 {
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    face_normals_.push_back(
-        unit_normal_of({mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])}));
+    face_normals_.push_back(unit_normal_of(corners_at<3>(mesh.vertex_xyz, mesh.face_vertices, f)));
   }
   find_sharp_edges(feature_angle_deg);
   make_segments(feature_angle_deg);
@@ -217,11 +216,10 @@ std::array<Vec3, 2> SmoothSurface::side_points(LocalIndex face, std::size_t side
 void SmoothSurface::make_patches()
 {
   for (LocalIndex f = 0; f < mesh_->num_faces(); ++f) {
-    GregoryPatch::Corners corners{};
+    const GregoryPatch::Corners corners = corners_at<3>(mesh_->vertex_xyz, mesh_->face_vertices, f);
     GregoryPatch::Corners normals{};
     GregoryPatch::Sides sides{};
     for (std::size_t c = 0; c < 3; ++c) {
-      corners[c] = mesh_->position(mesh_->face_vertices[3 * at(f) + c]);
       normals[c] = corner_normals_[3 * at(f) + c];
       sides[c] = side_points(f, c);
     }

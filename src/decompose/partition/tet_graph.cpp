@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
 
 namespace tessera::decompose {
@@ -49,9 +50,7 @@ double triangle_area(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& tri
 
 Vec3 centroid_of(const mesh::CoarseMesh& mesh, LocalIndex t)
 {
-  Vec3 sum{};
-  for (const LocalIndex v : mesh.tet(t)) sum = sum + mesh.position(v);
-  return 0.25 * sum;
+  return tet_centroid(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t));
 }
 
 std::vector<std::int32_t> quantise(std::span<const double> values)

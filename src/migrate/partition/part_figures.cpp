@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -15,10 +16,8 @@ void count_tets(const DistributedMesh& mesh, std::vector<PartFigures>& parts)
 {
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
     PartFigures& part = parts[at(mesh.tet_part[at(t)])];
-    const auto v = mesh.tet(t);
     ++part.num_tets;
-    part.volume += tet_volume(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]),
-                              mesh.position(v[3]));
+    part.volume += tet_volume(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t));
   }
   for (const LocalIndex t : mesh.boundary_tet) ++parts[at(mesh.tet_part[at(t)])].num_boundary;
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "tessera/base/tet.hpp"
+
 #include "netgen/csg/access.hpp"
 #include "netgen/csg/patches.hpp"
 
@@ -56,8 +58,7 @@ class Describer {
   {
     const LocalIndex* const v = &mesh_.face_vertices[3 * at(f)];
     std::array<LocalIndex, 3> vertices{v[0], v[1], v[2]};
-    const auto [a, b, c] =
-        std::array{mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
+    const auto [a, b, c] = corners_at<3>(mesh_.vertex_xyz, mesh_.face_vertices, f);
     const auto [out_of, into] = solids_of(f);
     const bool is_out_of_lower = out_of > 0 && (into == 0 || out_of < into);
     if (!is_out_of_lower) std::swap(vertices[1], vertices[2]);

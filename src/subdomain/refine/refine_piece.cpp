@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/mesh/lattice_numbering.hpp"
@@ -125,13 +126,10 @@ class PieceSplitter {
   [[nodiscard]] std::vector<LocalIndex> folded_parents(const fill::FillOutput& all) const
   {
     std::vector<LocalIndex> parents;
-    const std::span<const double> xyz(all.vertex_xyz);
     for (LocalIndex tet = all_.first_tet; tet < all_.last_tet; ++tet) {
       for (LocalIndex child = 0; child < num_children(); ++child) {
-        const LocalIndex* v = &all.tet_vertices[4 * at(tet * num_children() + child)];
-        const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]),
-                                         point_at(xyz, v[2]), point_at(xyz, v[3]));
-        if (volume > 0.0) continue;
+        const LocalIndex row = tet * num_children() + child;
+        if (tet_volume(corners_at<4>(all.vertex_xyz, all.tet_vertices, row)) > 0.0) continue;
         parents.push_back(tet);
         break;
       }

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/surface/coarse_surface.hpp"
 #include "tessera/surface/reference.hpp"
@@ -66,11 +67,8 @@ Parts patches_of(const mesh::CoarseMesh& mesh)
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     const LocalIndex patch = mesh.face_patch[at(f)];
     if (patch == kNoIndex) continue;
-    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    const Vec3 a = mesh.position(v[0]);
-    const Vec3 b = mesh.position(v[1]);
-    const Vec3 c = mesh.position(v[2]);
-    add_part(mesh.patch_surface[at(patch)], triangle_area(a, b, c), middle_of({a, b, c}), parts);
+    const auto corners = corners_at<3>(mesh.vertex_xyz, mesh.face_vertices, f);
+    add_part(mesh.patch_surface[at(patch)], triangle_area(corners), middle_of(corners), parts);
   }
   return parts;
 }
