@@ -11,25 +11,16 @@
 #include <utility>
 
 #include "tessera/base/tet.hpp"
+#include "tessera/mesh/tet_edges.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::coarse {
 namespace {
 
 using Edge = std::array<LocalIndex, 2>;  // Lower vertex first.
+constexpr std::size_t kNumEdges = mesh::kTetEdgeCorners.size();
 
-// Corners of a tet: those of an edge, and the other two.
-struct EdgeCorners {
-  std::size_t a, b, c, d;
-};
-constexpr std::array<EdgeCorners, 6> kEdges{
-    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
-
-Edge edge_of(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
-
-double degrees_between(const Vec3& u, const Vec3& v)
-{
-  return angle_between(u, v) * 180.0 / std::numbers::pi;
-}
+double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 class SharpFinder {
  public:
@@ -51,28 +42,25 @@ class SharpFinder {
   }
 
  private:
-  [[nodiscard]] double dihedral(LocalIndex t, const EdgeCorners& edge) const
+  [[nodiscard]] std::array<Vec3, 4> corners(LocalIndex t) const
   {
-    const auto v = mesh_.tet(t);
-    const Vec3 a = mesh_.position(v[edge.a]);
-    const Vec3 along = mesh_.position(v[edge.b]) - a;
-    return degrees_between(cross(along, mesh_.position(v[edge.c]) - a),
-                           cross(along, mesh_.position(v[edge.d]) - a));
+    return corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t);
   }
 
   [[nodiscard]] double smallest_angle(LocalIndex t) const
   {
     double least = 180.0;
-    for (const EdgeCorners& edge : kEdges) least = std::min(least, dihedral(t, edge));
+    for (std::size_t e = 0; e < kNumEdges; ++e) {
+      least = std::min(least, degrees(mesh::dihedral_angle(corners(t), e)));
+    }
     return least;
   }
 
   [[nodiscard]] double shortest_edge(LocalIndex t) const
   {
-    const auto v = mesh_.tet(t);
+    const auto p = corners(t);
     double least = std::numeric_limits<double>::infinity();
-    for (const EdgeCorners& edge : kEdges)
-      least = std::min(least, norm(mesh_.position(v[edge.b]) - mesh_.position(v[edge.a])));
+    for (const auto& [a, b] : mesh::kTetEdgeCorners) least = std::min(least, norm(p[b] - p[a]));
     return least;
   }
 
@@ -82,13 +70,13 @@ class SharpFinder {
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
       const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
       for (std::size_t c = 0; c < 3; ++c) {
-        faces_at_[edge_of(v[c], v[(c + 1) % 3])].push_back(f);
+        faces_at_[mesh::sorted_edge(v[c], v[(c + 1) % 3])].push_back(f);
         vertex_patches_[v[c]].insert(mesh_.face_patch[at(f)]);
       }
     }
     for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
-      on_curve_.insert(
-          edge_of(mesh_.segment_vertices[2 * at(s)], mesh_.segment_vertices[2 * at(s) + 1]));
+      on_curve_.insert(mesh::sorted_edge(mesh_.segment_vertices[2 * at(s)],
+                                         mesh_.segment_vertices[2 * at(s) + 1]));
     }
     for (const auto& [edge, faces] : faces_at_) {
       const LocalIndex patch = mesh_.face_patch[at(faces.front())];
@@ -101,21 +89,23 @@ class SharpFinder {
   void find_wedges()
   {
     for (const LocalIndex t : sharp_) {
-      for (const EdgeCorners& edge : kEdges) {
-        if (faces_at_.contains(ends(t, edge))) wedges_[{ends(t, edge), material(t)}] = 0.0;
+      for (std::size_t e = 0; e < kNumEdges; ++e) {
+        if (faces_at_.contains(ends(t, e))) wedges_[{ends(t, e), material(t)}] = 0.0;
       }
     }
     for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
-      for (const EdgeCorners& edge : kEdges) {
-        const auto found = wedges_.find({ends(t, edge), material(t)});
-        if (found != wedges_.end()) found->second += dihedral(t, edge);
+      for (std::size_t e = 0; e < kNumEdges; ++e) {
+        const auto found = wedges_.find({ends(t, e), material(t)});
+        if (found == wedges_.end()) continue;
+        found->second += degrees(mesh::dihedral_angle(corners(t), e));
       }
     }
   }
 
-  [[nodiscard]] Edge ends(LocalIndex t, const EdgeCorners& edge) const
+  [[nodiscard]] Edge ends(LocalIndex t, std::size_t edge) const
   {
-    return edge_of(mesh_.tet(t)[edge.a], mesh_.tet(t)[edge.b]);
+    const auto& [a, b] = mesh::kTetEdgeCorners[edge];
+    return mesh::sorted_edge(mesh_.tet(t)[a], mesh_.tet(t)[b]);
   }
   [[nodiscard]] LocalIndex material(LocalIndex t) const { return mesh_.tet_material[at(t)]; }
 
@@ -133,7 +123,7 @@ class SharpFinder {
       if (std::exchange(is_in_cusp[at(f)], 1) != 0) continue;
       const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
       for (std::size_t c = 0; c < 3; ++c) {
-        const Edge edge = edge_of(v[c], v[(c + 1) % 3]);
+        const Edge edge = mesh::sorted_edge(v[c], v[(c + 1) % 3]);
         cusp_edges_.insert(edge);
         for (const LocalIndex other : faces_at_.at(edge)) {
           if (mesh_.face_patch[at(other)] == mesh_.face_patch[at(f)] && is_sharp(other)) {
@@ -148,16 +138,16 @@ class SharpFinder {
   {
     const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
     const Vec3 tip = mesh_.position(v[c]);
-    return degrees_between(mesh_.position(v[(c + 1) % 3]) - tip,
-                           mesh_.position(v[(c + 2) % 3]) - tip);
+    return degrees(
+        angle_between(mesh_.position(v[(c + 1) % 3]) - tip, mesh_.position(v[(c + 2) % 3]) - tip));
   }
 
   [[nodiscard]] bool is_tip(LocalIndex f) const
   {
     const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
     for (std::size_t c = 0; c < 3; ++c) {
-      const bool between = on_curve_.contains(edge_of(v[c], v[(c + 1) % 3]))
-                           && on_curve_.contains(edge_of(v[c], v[(c + 2) % 3]));
+      const bool between = on_curve_.contains(mesh::sorted_edge(v[c], v[(c + 1) % 3]))
+                           && on_curve_.contains(mesh::sorted_edge(v[c], v[(c + 2) % 3]));
       if (between && corner_angle(f, c) < wide_deg_) return true;
     }
     return false;
@@ -170,11 +160,12 @@ class SharpFinder {
 
   [[nodiscard]] bool is_forced(LocalIndex t) const
   {
-    return std::ranges::any_of(kEdges, [&](const EdgeCorners& edge) {
-      if (cusp_edges_.contains(ends(t, edge))) return true;
-      const auto wedge = wedges_.find({ends(t, edge), material(t)});
-      return wedge != wedges_.end() && wedge->second < wide_deg_;
-    });
+    for (std::size_t e = 0; e < kNumEdges; ++e) {
+      if (cusp_edges_.contains(ends(t, e))) return true;
+      const auto wedge = wedges_.find({ends(t, e), material(t)});
+      if (wedge != wedges_.end() && wedge->second < wide_deg_) return true;
+    }
+    return false;
   }
 
   SharpTets sort_out()
@@ -198,7 +189,7 @@ class SharpFinder {
   [[nodiscard]] SharpTet described(LocalIndex t, double angle) const
   {
     SharpTet tet{.angle_deg = angle, .shortest_edge = shortest_edge(t)};
-    tet.centre = tet_centroid(corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t));
+    tet.centre = tet_centroid(corners(t));
     std::set<LocalIndex> rows;
     for (const LocalIndex v : mesh_.tet(t)) {
       const auto found = vertex_patches_.find(v);

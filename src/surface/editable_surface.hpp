@@ -30,11 +30,6 @@ enum class Freedom : char { patch, curve, none };
   return triangle;
 }
 
-[[nodiscard]] inline PatchSurface::Edge edge_of(LocalIndex a, LocalIndex b)
-{
-  return {std::min(a, b), std::max(a, b)};
-}
-
 /// @brief Among the few edges from row `first` on, which ascend. Most edges come twice.
 inline void insert_if_new(const PatchSurface::Edge& edge, std::size_t first,
                           std::vector<PatchSurface::Edge>& edges)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "tessera/mesh/tet_topology.hpp"
+
 namespace tessera::surface {
 namespace {
 
@@ -70,7 +72,7 @@ void SurfaceGroups::add_segments()
     const LocalIndex curve = row_of(rows, mesh.segment_curve[at(s)]);
     if (at(curve) == curve_number_.size()) curve_number_.push_back(mesh.segment_curve[at(s)]);
     const LocalIndex* ends = &mesh.segment_vertices[2 * at(s)];
-    curves[edge_of(ends[0], ends[1])].insert(curve);
+    curves[mesh::sorted_edge(ends[0], ends[1])].insert(curve);
     for (std::size_t end = 0; has_t() && end < 2; ++end) {
       t_[{curve, ends[end]}].push_back(mesh.segment_t[2 * at(s) + end]);
     }
@@ -89,7 +91,7 @@ void SurfaceGroups::add_other_edges()
   for (std::size_t t = 0; t < groups_.triangles.size(); ++t) {
     const auto& v = groups_.triangles[t];
     for (std::size_t c = 0; c < 3; ++c) {
-      groups[edge_of(v[c], v[(c + 1) % 3])].push_back(groups_.triangle_patch[t]);
+      groups[mesh::sorted_edge(v[c], v[(c + 1) % 3])].push_back(groups_.triangle_patch[t]);
     }
   }
   const auto none = static_cast<LocalIndex>(curve_number_.size());
@@ -260,7 +262,7 @@ void SurfaceGroups::take_segments(const EditableSurface& edited, CoarseSurface& 
     const LocalIndex* ends = &from.segment_vertices[2 * at(s)];
     if (changed_.contains(ends[0]) || changed_.contains(ends[1])) continue;
     if (edited.curve(ends[0], ends[1]) == kNoIndex) continue;
-    kept.insert(edge_of(ends[0], ends[1]));
+    kept.insert(mesh::sorted_edge(ends[0], ends[1]));
     add(ends, from.segment_curve[at(s)], has_t() ? &from.segment_t[2 * at(s)] : nullptr);
   }
   for (const auto& [edge, curve] : edited.curves()) {

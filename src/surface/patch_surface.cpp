@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::surface {
 namespace {
@@ -40,9 +41,8 @@ std::vector<Side> sides_of(const PatchSurface& surface)
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const PatchSurface::Triangle& v = surface.triangles[t];
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
-      sides.push_back(
-          {{low, high}, surface.triangle_patch[t], uv_middle(surface, t, c, (c + 1) % 3)});
+      sides.push_back({mesh::sorted_edge(v[c], v[(c + 1) % 3]), surface.triangle_patch[t],
+                       uv_middle(surface, t, c, (c + 1) % 3)});
     }
   }
   std::ranges::sort(sides);

@@ -25,6 +25,17 @@ namespace tessera::mesh {
   return longest;
 }
 
+/// @brief Angle of a tet at edge `edge` of kTetEdgeCorners, radians in [0, pi]. Local.
+[[nodiscard]] inline double dihedral_angle(const std::array<Vec3, 4>& corners,
+                                           std::size_t edge) noexcept
+{
+  const auto& [a, b] = kTetEdgeCorners[edge];
+  const auto& [c, d] = kTetEdgeCorners[5 - edge];  // The edge opposite to it.
+  const Vec3 along = corners[b] - corners[a];
+  return angle_between(cross(along, corners[c] - corners[a]),
+                       cross(along, corners[d] - corners[a]));
+}
+
 /// @brief Calls visit(a, b), a < b, once for each different edge of the tets.
 ///
 /// Edges are gathered by their lower vertex and repetitions seen by a mark on the upper one: linear

@@ -19,6 +19,12 @@ inline constexpr std::array<std::array<std::size_t, 3>, 4> kTetFaceCorners{
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdgeCorners{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
+/// @brief The two vertices in ascending order: the key of an edge.
+[[nodiscard]] constexpr std::array<LocalIndex, 2> sorted_edge(LocalIndex a, LocalIndex b) noexcept
+{
+  return {std::min(a, b), std::max(a, b)};
+}
+
 /// @brief The three vertices in ascending order: the key of a triangle.
 [[nodiscard]] constexpr std::array<LocalIndex, 3> sorted_triangle(LocalIndex a, LocalIndex b,
                                                                   LocalIndex c) noexcept

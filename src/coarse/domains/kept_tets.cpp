@@ -131,8 +131,7 @@ bool KeptTets::open_pinches(std::span<const HoleTriangle> triangles)
   std::map<Edge, EdgeUse> uses;
   for (const HoleTriangle& triangle : triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(triangle.vertices[c], triangle.vertices[(c + 1) % 3]);
-      EdgeUse& use = uses[{low, high}];
+      EdgeUse& use = uses[mesh::sorted_edge(triangle.vertices[c], triangle.vertices[(c + 1) % 3])];
       ++use.num_triangles;
       use.is_inside = use.is_inside || triangle.patch == inner_patch_;
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse/domains/skin_distance.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -9,6 +8,7 @@
 
 #include "tessera/base/tet.hpp"
 #include "tessera/base/triangle.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/model/winding.hpp"
 
 namespace tessera::coarse {
@@ -45,8 +45,7 @@ std::vector<Vec3> vertex_normals(const surface::DomainSkin& skin,
 std::array<LocalIndex, 2> side_at(const surface::DomainSkin& skin, std::size_t t, std::size_t c)
 {
   const LocalIndex* v = &skin.triangle_vertices[3 * t];
-  const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
-  return {low, high};
+  return mesh::sorted_edge(v[c], v[(c + 1) % 3]);
 }
 
 mesh::RowTable<2> edges_of(const surface::DomainSkin& skin)

@@ -2,12 +2,12 @@
 #include "decompose/repair/seam_angles.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <utility>
 
-#include "tessera/base/vec3.hpp"
+#include "tessera/base/tet.hpp"
+#include "tessera/mesh/tet_edges.hpp"
 
 namespace tessera::decompose {
 namespace {
@@ -27,17 +27,9 @@ std::vector<Edge> edges_of_seams(const TetGraph& graph, const mesh::Decompositio
   return edges;
 }
 
-// Angle of a tet at its edge, radians.
-double dihedral(const TetGraph& graph, LocalIndex t, std::size_t edge)
+double dihedral(const mesh::CoarseMesh& mesh, LocalIndex t, std::size_t edge)
 {
-  const auto vertices = graph.vertices(t);
-  const auto& ends = mesh::kTetEdgeCorners[edge];
-  const auto& others = mesh::kTetEdgeCorners[5 - edge];
-  const Vec3 origin = graph.mesh->position(vertices[ends[0]]);
-  const Vec3 axis = graph.mesh->position(vertices[ends[1]]) - origin;
-  const Vec3 a = cross(axis, graph.mesh->position(vertices[others[0]]) - origin);
-  const Vec3 b = cross(axis, graph.mesh->position(vertices[others[1]]) - origin);
-  return std::atan2(norm(cross(a, b)), dot(a, b));
+  return mesh::dihedral_angle(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t), edge);
 }
 
 // The angle that one tet adds to the wedge of its subdomain at an edge.
@@ -72,7 +64,7 @@ std::vector<Share> shares_at_seams(const TetGraph& graph, const mesh::Decomposit
       if (found == edges.end() || *found != ends) continue;
       shares.push_back({static_cast<std::size_t>(found - edges.begin()),
                         decomposition.tet_subdomain[static_cast<std::size_t>(t)],
-                        dihedral(graph, t, edge)});
+                        dihedral(*graph.mesh, t, edge)});
     }
   }
   return shares;

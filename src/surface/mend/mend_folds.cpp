@@ -14,6 +14,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/surface/overlap.hpp"
 
 #include "surface/editable_surface.hpp"
@@ -115,7 +116,8 @@ class FoldMender {
  private:
   static std::array<Edge, 3> sides(const Triangle& v)
   {
-    return {edge_of(v[0], v[1]), edge_of(v[1], v[2]), edge_of(v[2], v[0])};
+    return {mesh::sorted_edge(v[0], v[1]), mesh::sorted_edge(v[1], v[2]),
+            mesh::sorted_edge(v[2], v[0])};
   }
 
   [[nodiscard]] Corners corners(const Triangle& v) const
@@ -282,7 +284,7 @@ class FoldMender {
       for (const LocalIndex end : edge) {
         if (may_move(t, end, point)) continue;
         const LocalIndex kept = end == edge[0] ? edge[1] : edge[0];
-        const Edge side = edge_of(opposite(surface_.triangle(t), edge), kept);
+        const Edge side = mesh::sorted_edge(opposite(surface_.triangle(t), edge), kept);
         if (beyond || !may_take_in(side, t, edge, point)) return false;
         beyond = side;
       }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/mesh/tet_topology.hpp"
+
 namespace tessera::surface {
 namespace {
 
@@ -39,13 +41,13 @@ class ChainFinder {
  private:
   void follow(LocalIndex first, LocalIndex second)
   {
-    if (!seen_.insert(edge_of(first, second)).second) return;
+    if (!seen_.insert(mesh::sorted_edge(first, second)).second) return;
     Chain chain{first, second};
     while (chain.back() != first && surface_.freedom(chain.back()) == Freedom::curve) {
       const LocalIndex before = chain[chain.size() - 2];
       const std::vector<LocalIndex> two = surface_.curve_neighbours(chain.back());
       chain.push_back(two.front() == before ? two.back() : two.front());
-      seen_.insert(edge_of(chain[chain.size() - 2], chain.back()));
+      seen_.insert(mesh::sorted_edge(chain[chain.size() - 2], chain.back()));
     }
     chains_.push_back(std::move(chain));
   }
@@ -60,7 +62,7 @@ class Divider {
   Divider(SurfaceEditor& editor, const Chain& chain) : editor_(editor), chain_(chain)
   {
     for (std::size_t i = 1; i < chain.size(); ++i) {
-      lengths_.push_back(editor.relative_length(edge_of(chain[i - 1], chain[i])));
+      lengths_.push_back(editor.relative_length(mesh::sorted_edge(chain[i - 1], chain[i])));
     }
     next_at_ = lengths_.front();
   }
@@ -114,7 +116,7 @@ class Divider {
     }
     if (std::abs(next_at_ - place) <= near && next_ + 1 < chain_.size()) return take_next(place);
     if (next_at_ < place && next_ + 1 < chain_.size()) pass_next(true);
-    const Edge edge = edge_of(last_, chain_[next_]);
+    const Edge edge = mesh::sorted_edge(last_, chain_[next_]);
     const double part = (place - last_at_) / (next_at_ - last_at_);
     last_ = editor_.split(edge, edge[0] == last_ ? part : 1.0 - part);
     last_at_ = place;
@@ -126,7 +128,7 @@ class Divider {
     const EditableSurface& surface = editor_.surface();
     std::vector<LocalIndex> two = surface.curve_neighbours(v);
     std::ranges::sort(two, {}, [&](LocalIndex other) {
-      return std::pair(editor_.relative_length(edge_of(v, other)), other);
+      return std::pair(editor_.relative_length(mesh::sorted_edge(v, other)), other);
     });
     for (const LocalIndex kept : two) {
       if (editor_.collapse(v, kept, editor_.fair_shape(v))) return;

@@ -7,6 +7,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 
 #include "surface/editable_surface.hpp"
 #include "surface/model_curve.hpp"
@@ -51,7 +52,7 @@ class FoldFinder {
   [[nodiscard]] Vec3 middle_of(std::size_t t, std::size_t side)
   {
     const PatchSurface::Triangle& v = surface_.triangles[t];
-    const Edge edge = edge_of(v[side], v[(side + 1) % 3]);
+    const Edge edge = mesh::sorted_edge(v[side], v[(side + 1) % 3]);
     std::vector<Middle>& known = middles_[at(edge[0])];
     const auto same = std::ranges::find(known, edge[1], &Middle::end);
     if (same != known.end()) return same->xyz;

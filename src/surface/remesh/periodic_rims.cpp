@@ -12,6 +12,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/triangle.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/model/point_search.hpp"
 
 #include "surface/remesh/side_shift.hpp"
@@ -302,7 +303,7 @@ std::vector<LocalIndex> PeriodicRims::curves_of(const std::vector<LocalIndex>& p
   for (const std::size_t t : triangles_in(surface, patches)) {
     const auto& v = surface.triangles[t];
     for (std::size_t c = 0; c < 3; ++c) {
-      const Edge edge = edge_of(v[c], v[(c + 1) % 3]);
+      const Edge edge = mesh::sorted_edge(v[c], v[(c + 1) % 3]);
       const auto found = std::ranges::lower_bound(surface.edges, edge);
       if (found == surface.edges.end() || *found != edge) continue;
       curves.insert(surface.edge_curve[static_cast<std::size_t>(found - surface.edges.begin())]);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/mesh/tet_topology.hpp"
+
 namespace tessera::surface {
 namespace {
 
@@ -67,7 +69,7 @@ class Polisher {
   bool take_step(const PatchSurface::Triangle& v)
   {
     for (std::size_t c = 0; c < 3; ++c) {
-      if (editor_.flip_if_better(edge_of(v[c], v[(c + 1) % 3]))) return true;
+      if (editor_.flip_if_better(mesh::sorted_edge(v[c], v[(c + 1) % 3]))) return true;
     }
     bool has_moved = false;
     for (const LocalIndex corner : v) has_moved = pull(corner) || has_moved;

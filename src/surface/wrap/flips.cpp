@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/mesh/tet_topology.hpp"
+
 #include "surface/crossings.hpp"
 #include "surface/editable_surface.hpp"
 #include "surface/wrap/corners.hpp"
@@ -64,7 +66,7 @@ class Flipper {
     if (dot(normals[0], normals[1]) < kLeastCosine) return false;
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto edge = edge_of(flip.made[i][c], flip.made[i][(c + 1) % 3]);
+        const auto edge = mesh::sorted_edge(flip.made[i][c], flip.made[i][(c + 1) % 3]);
         for (const LocalIndex t : surface_.triangles_at(edge)) {
           if (std::ranges::find(flip.triangles, t) != flip.triangles.end()) continue;
           if (dot(normals[i], unit(normal_of(surface_.corners(t)))) < kLeastCosine) return false;
@@ -88,7 +90,7 @@ class Flipper {
     const std::array made{placed(flip->made[0]), placed(flip->made[1])};
     if (!guard_.allows(flip->triangles, made)) return false;
     surface_.flip(*flip);
-    short_.back() = edge_of(a, b);
+    short_.back() = mesh::sorted_edge(a, b);
     for (std::size_t i = 0; i < 2; ++i) guard_.change(flip->triangles[i], made[i]);
     return true;
   }

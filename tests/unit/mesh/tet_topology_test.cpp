@@ -2,6 +2,8 @@
 #include "tessera/mesh/tet_topology.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -49,6 +51,23 @@ TEST(TetTopology, ASortedTetKnowsTheSidesOfItsFaces)
     ++orders;
   } while (std::ranges::next_permutation(tet).found);
   EXPECT_EQ(orders, 24);
+}
+
+TEST(TetTopology, AnEdgeIsKnownByItsVerticesInOrder)
+{
+  EXPECT_EQ(sorted_edge(7, 3), (std::array<LocalIndex, 2>{3, 7}));
+  EXPECT_EQ(sorted_edge(3, 7), sorted_edge(7, 3));
+}
+
+TEST(TetTopology, ACornerOfACubeHasThreeRightAngles)
+{
+  const std::array<Vec3, 4> tet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (std::size_t edge = 0; edge < kTetEdgeCorners.size(); ++edge) {
+    const bool is_at_corner = kTetEdgeCorners[edge][0] == 0;
+    EXPECT_NEAR(dihedral_angle(tet, edge), std::acos(is_at_corner ? 0.0 : 1.0 / std::sqrt(3.0)),
+                1e-15)
+        << "edge " << edge;
+  }
 }
 
 TEST(TetTopology, VisitsEveryEdgeOnce)
