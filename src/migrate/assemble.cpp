@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/base/rows.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/migrate/tet_neighbours.hpp"
 
@@ -17,7 +18,6 @@
 #include "migrate/dense_ids.hpp"
 #include "migrate/find_sharers.hpp"
 #include "migrate/join_points.hpp"
-#include "migrate/rows.hpp"
 #include "migrate/sharer_lists.hpp"
 
 namespace tessera::migrate {
@@ -192,17 +192,10 @@ std::vector<LocalIndex> ascending(const std::vector<GlobalIndex>& ids)
   return order;
 }
 
-std::vector<LocalIndex> inverse(const std::vector<LocalIndex>& order)
-{
-  std::vector<LocalIndex> place(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) place[at(order[i])] = static_cast<LocalIndex>(i);
-  return place;
-}
-
 void sort_vertices(DistributedMesh& mesh)
 {
   const auto order = ascending(mesh.vertex_ids);
-  const auto place = inverse(order);
+  const auto place = inverse_of(order);
   mesh.vertex_ids = rows_of(mesh.vertex_ids, order);
   mesh.vertex_xyz = rows_of<3>(mesh.vertex_xyz, order);
   for (LocalIndex& v : mesh.tet_vertices) v = place[at(v)];
@@ -214,7 +207,7 @@ void sort_vertices(DistributedMesh& mesh)
 void sort_tets(DistributedMesh& mesh)
 {
   const auto order = ascending(mesh.tet_ids);
-  const auto place = inverse(order);
+  const auto place = inverse_of(order);
   mesh.tet_ids = rows_of(mesh.tet_ids, order);
   mesh.tet_vertices = rows_of<4>(mesh.tet_vertices, order);
   mesh.tet_material = rows_of(mesh.tet_material, order);

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "migrate/rows.hpp"
+#include "tessera/base/rows.hpp"
 
 namespace tessera::migrate {
 namespace {

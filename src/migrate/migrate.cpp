@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/rows.hpp"
 
 #include "migrate/block_merge.hpp"
 #include "migrate/rank_buckets.hpp"
-#include "migrate/rows.hpp"
 #include "migrate/sharer_lists.hpp"
 #include "migrate/traffic.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/morton_order.hpp"
+#include "tessera/base/rows.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "optimize/input_check.hpp"
@@ -39,13 +40,6 @@ std::vector<Point> scaled_points(const std::vector<double>& vertex_xyz, double s
                  scale * vertex_xyz[3 * v + 2], 0.0};
   }
   return points;
-}
-
-std::vector<LocalIndex> inverse_of(const std::vector<LocalIndex>& order)
-{
-  std::vector<LocalIndex> inverse(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) inverse[at(order[i])] = static_cast<LocalIndex>(i);
-  return inverse;
 }
 
 // Tets in the order of their lowest vertex; equal ones by tet. It needs no curve of its own, since
@@ -90,22 +84,11 @@ std::vector<LocalIndex> renumbered(const std::vector<LocalIndex>& values,
   return result;
 }
 
-// Rows of four in a new order.
-std::vector<LocalIndex> reordered(const std::vector<LocalIndex>& rows,
-                                  const std::vector<LocalIndex>& order)
-{
-  std::vector<LocalIndex> result(rows.size());
-  for (std::size_t t = 0; t < order.size(); ++t) {
-    std::copy_n(&rows[4 * at(order[t])], 4, &result[4 * t]);
-  }
-  return result;
-}
-
 std::vector<LocalIndex> reordered_neighbours(const std::vector<LocalIndex>& neighbours,
                                              const std::vector<LocalIndex>& order)
 {
   const std::vector<LocalIndex> new_tet = inverse_of(order);
-  std::vector<LocalIndex> result = reordered(neighbours, order);
+  std::vector<LocalIndex> result = rows_of<4>(neighbours, order);
   for (LocalIndex& corner : result) {
     if (corner != kNoIndex) corner = 4 * new_tet[at(tet_of(corner))] + (corner & 3);
   }
@@ -203,7 +186,7 @@ WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels, bool
   const std::vector<LocalIndex> new_vertex = order_points(input, mesh);
   const std::vector<LocalIndex> renamed = renumbered(input.tet_vertices, new_vertex);
   const std::vector<LocalIndex> order = order_by_lowest_vertex(renamed, mesh.num_vertices());
-  mesh.tet_vertices = reordered(renamed, order);
+  mesh.tet_vertices = rows_of<4>(renamed, order);
   size_arrays(mesh);
   refresh_energies(mesh);
   mesh.first_not_positive = find_not_positive(mesh, order);

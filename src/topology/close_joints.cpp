@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/rows.hpp"
 #include "tessera/mesh/image_edges.hpp"
 #include "tessera/topology/split_patches.hpp"
 
@@ -49,23 +50,10 @@ class Closer {
       if (!has_column(v)) of_place = number_.back();
       kept.push_back(v);
     }
-    mesh_.vertex_xyz = rows_of(mesh_.vertex_xyz, 3, kept);
+    mesh_.vertex_xyz = rows_of<3>(mesh_.vertex_xyz, kept);
     if (mesh_.layers.are_none()) return;
-    mesh_.layers.wall_xyz = rows_of(mesh_.layers.wall_xyz, 3, kept);
-    mesh_.layers.vertex_stack = rows_of(mesh_.layers.vertex_stack, 1, kept);
-  }
-
-  template <class T>
-  static FlatArray<T> rows_of(const FlatArray<T>& values, std::size_t width,
-                              const std::vector<LocalIndex>& rows)
-  {
-    FlatArray<T> chosen;
-    chosen.reserve(width * rows.size());
-    for (const LocalIndex row : rows) {
-      const auto first = values.begin() + static_cast<std::ptrdiff_t>(width * at(row));
-      chosen.insert(chosen.end(), first, first + static_cast<std::ptrdiff_t>(width));
-    }
-    return chosen;
+    mesh_.layers.wall_xyz = rows_of<3>(mesh_.layers.wall_xyz, kept);
+    mesh_.layers.vertex_stack = rows_of(mesh_.layers.vertex_stack, kept);
   }
 
   void renumber(FlatArray<LocalIndex>& vertices) const
@@ -100,10 +88,10 @@ class Closer {
       number[at(f)] = static_cast<LocalIndex>(kept.size());
       kept.push_back(f);
     }
-    mesh_.face_vertices = rows_of(mesh_.face_vertices, 3, kept);
-    mesh_.face_patch = rows_of(mesh_.face_patch, 1, kept);
-    if (!mesh_.face_uv.empty()) mesh_.face_uv = rows_of(mesh_.face_uv, 6, kept);
-    mesh_.images.face_origin = rows_of(mesh_.images.face_origin, 1, kept);
+    mesh_.face_vertices = rows_of<3>(mesh_.face_vertices, kept);
+    mesh_.face_patch = rows_of(mesh_.face_patch, kept);
+    if (!mesh_.face_uv.empty()) mesh_.face_uv = rows_of<6>(mesh_.face_uv, kept);
+    mesh_.images.face_origin = rows_of(mesh_.images.face_origin, kept);
     for (LocalIndex& origin : mesh_.images.face_origin) {
       if (origin != kNoIndex) origin = number[at(origin)];
     }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/rows.hpp"
 
 #include "netgen/mesh_conversion.hpp"
 
@@ -15,15 +16,6 @@ namespace tessera::netgen {
 namespace {
 
 using ::netgen::PointIndex;
-
-std::vector<LocalIndex> inverse(const std::vector<LocalIndex>& order)
-{
-  std::vector<LocalIndex> place(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    place[static_cast<std::size_t>(order[i])] = static_cast<LocalIndex>(i);
-  }
-  return place;
-}
 
 PointIndex number_of(LocalIndex v) { return {v + PointIndex::BASE}; }
 
@@ -54,7 +46,7 @@ void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
   }
   mesh.AddFaceDescriptor(
       ::netgen::FaceDescriptor(1, 1, 0, 0));  // Domain 1 inside, nothing outside.
-  const std::vector<LocalIndex> place = inverse(order);
+  const std::vector<LocalIndex> place = inverse_of(order);
   const auto number = [&](std::size_t at) {
     return place[static_cast<std::size_t>(triangle_vertices[at])] + PointIndex::BASE;
   };
