@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdint>
-#include <unordered_map>
+#include <tuple>
 #include <utility>
 
+#include "cut/edge_crossings.hpp"
 #include "cut/line_intervals.hpp"
 #include "cut/part_surface.hpp"
 
@@ -77,22 +77,10 @@ class Cutter {
   }
 
  private:
-  [[nodiscard]] bool is_below(LocalIndex v) const { return heights_[at(v)] < 0.0; }
+  [[nodiscard]] bool is_below(LocalIndex v) const { return crossings_.is_below(v); }
   Side& side_of(LocalIndex v) { return is_below(v) ? below_ : above_; }
 
-  // Where the plane crosses an edge: the same point for all that have the edge.
-  LocalIndex crossing(LocalIndex a, LocalIndex b)
-  {
-    if (b < a) std::swap(a, b);
-    const auto key = (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
-    const auto [place, is_new] =
-        crossings_.try_emplace(key, static_cast<LocalIndex>(points_.size()));
-    if (is_new) {
-      const double share = heights_[at(a)] / (heights_[at(a)] - heights_[at(b)]);
-      points_.push_back(points_[at(a)] + share * (points_[at(b)] - points_[at(a)]));
-    }
-    return place->second;
-  }
+  LocalIndex crossing(LocalIndex a, LocalIndex b) { return crossings_.row(a, b, points_); }
 
   void cut_triangle(const SurfaceTriangle& triangle)
   {
@@ -184,7 +172,7 @@ class Cutter {
   double size_;
   std::vector<Vec3> points_;
   std::vector<double> heights_;
-  std::unordered_map<std::uint64_t, LocalIndex> crossings_{};  // By edge; only looked up.
+  EdgeCrossings crossings_{part_, heights_};
   std::vector<std::array<LocalIndex, 2>> section_{};
   std::vector<Trace> traces_{};
   Side below_{points_};

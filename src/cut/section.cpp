@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "tessera/base/union_find.hpp"
 
+#include "cut/edge_crossings.hpp"
 #include "cut/line_intervals.hpp"
 
 namespace tessera::cut {
@@ -21,7 +20,7 @@ class Sectioner {
  public:
   Sectioner(const PartSurface& part, const Plane& plane, const std::vector<double>& heights,
             double noise)
-      : part_(part), plane_(plane), heights_(heights), noise_(noise)
+      : part_(part), plane_(plane), heights_(heights), crossings_(part, heights), noise_(noise)
   {
   }
 
@@ -45,20 +44,14 @@ class Sectioner {
     double length = 0.0;
   };
 
-  [[nodiscard]] bool is_below(LocalIndex v) const { return heights_[at(v)] < 0.0; }
+  [[nodiscard]] bool is_below(LocalIndex v) const { return crossings_.is_below(v); }
 
   // Number of the point at which the plane crosses an edge.
   LocalIndex crossing(LocalIndex a, LocalIndex b)
   {
-    if (b < a) std::swap(a, b);
-    const auto key = (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
-    const auto [place, is_new] = numbers_.try_emplace(key, static_cast<LocalIndex>(points_.size()));
-    if (is_new) {
-      const double share = heights_[at(a)] / (heights_[at(a)] - heights_[at(b)]);
-      points_.push_back(part_.points[at(a)] + share * (part_.points[at(b)] - part_.points[at(a)]));
-      is_corner_.push_back(false);
-    }
-    return place->second;
+    const LocalIndex number = crossings_.row(a, b, points_);
+    is_corner_.resize(points_.size(), false);
+    return number;
   }
 
   void cross_curve(const FeatureEdge& edge)
@@ -165,8 +158,8 @@ class Sectioner {
   const PartSurface& part_;
   const Plane& plane_;
   const std::vector<double>& heights_;
+  EdgeCrossings crossings_;
   double noise_;
-  std::unordered_map<std::uint64_t, LocalIndex> numbers_{};  // By edge; only looked up.
   std::vector<Vec3> points_{};
   std::vector<bool> is_corner_{};
   std::vector<std::array<LocalIndex, 2>>
