@@ -7,6 +7,8 @@
 
 #include "tessera/mesh/tet_topology.hpp"
 
+#include "subdomain/files/ghost_points.hpp"
+
 namespace tessera::subdomain {
 namespace {
 
@@ -87,32 +89,12 @@ mesh::MeshArrays tet_arrays(const PartContext& context, LocalIndex part)
   return arrays;
 }
 
-// Rows of the ghosts' vertices: of points that are there, or of new ones.
-std::vector<LocalIndex> add_ghost_points(const migrate::GhostTets& ghosts, mesh::MeshArrays& arrays)
-{
-  const migrate::MeshBlock& block = ghosts.block;
-  const auto num_own = arrays.num_points();
-  std::vector<LocalIndex> rows;
-  for (LocalIndex v = 0; v < block.num_vertices(); ++v) {
-    const auto own_end = arrays.point_ids.begin() + num_own;
-    const auto own = std::lower_bound(arrays.point_ids.begin(), own_end, block.vertex_ids[at(v)]);
-    if (own != own_end && *own == block.vertex_ids[at(v)]) {
-      rows.push_back(static_cast<LocalIndex>(own - arrays.point_ids.begin()));
-      continue;
-    }
-    rows.push_back(static_cast<LocalIndex>(arrays.num_points()));
-    arrays.point_ids.push_back(block.vertex_ids[at(v)]);
-    for (const double x : block.position(v)) arrays.point_xyz.push_back(x);
-    arrays.point_ints["owner"].push_back(ghosts.vertex_owner[at(v)]);
-  }
-  return rows;
-}
-
 void add_ghosts(const PartContext& context, const migrate::GhostTets& ghosts,
                 mesh::MeshArrays& arrays)
 {
   const migrate::MeshBlock& block = ghosts.block;
-  const std::vector<LocalIndex> rows = add_ghost_points(ghosts, arrays);
+  const std::vector<LocalIndex> rows =
+      add_ghost_points(ghosts, {arrays.point_ids, arrays.point_xyz, arrays.point_ints["owner"]});
   std::vector<LocalIndex> tets;
   for (LocalIndex t = 0; t < block.num_tets(); ++t) {
     tets.push_back(t);

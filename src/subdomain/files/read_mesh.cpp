@@ -16,6 +16,7 @@
 #include "tessera/subdomain/mesh_input.hpp"
 
 #include "subdomain/consecutive_points.hpp"
+#include "subdomain/files/ghost_points.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -100,31 +101,12 @@ void append(std::vector<T>& to, const std::vector<T>& from)
   to.insert(to.end(), from.begin(), from.end());
 }
 
-// Rows of the ghosts' vertices: of points that are there, or of new ones behind them.
-std::vector<LocalIndex> add_ghost_points(const migrate::GhostTets& ghosts, MeshShare& share)
-{
-  const migrate::MeshBlock& block = ghosts.block;
-  const LocalIndex num_own = share.num_points();
-  std::vector<LocalIndex> rows;
-  for (LocalIndex v = 0; v < block.num_vertices(); ++v) {
-    const auto own_end = share.point_ids.begin() + num_own;
-    const auto own = std::lower_bound(share.point_ids.begin(), own_end, block.vertex_ids[at(v)]);
-    if (own != own_end && *own == block.vertex_ids[at(v)]) {
-      rows.push_back(static_cast<LocalIndex>(own - share.point_ids.begin()));
-      continue;
-    }
-    rows.push_back(share.num_points());
-    share.point_ids.push_back(block.vertex_ids[at(v)]);
-    for (const double x : block.position(v)) share.point_xyz.push_back(x);
-    share.point_owner.push_back(ghosts.vertex_owner[at(v)]);
-  }
-  share.num_ghost_points = share.num_points() - num_own;
-  return rows;
-}
-
 void add_ghosts(const migrate::GhostTets& ghosts, MeshShare& share)
 {
-  const std::vector<LocalIndex> rows = add_ghost_points(ghosts, share);
+  const LocalIndex num_own = share.num_points();
+  const std::vector<LocalIndex> rows =
+      add_ghost_points(ghosts, {share.point_ids, share.point_xyz, share.point_owner});
+  share.num_ghost_points = share.num_points() - num_own;
   for (const LocalIndex v : ghosts.block.tet_vertices) share.tet_points.push_back(rows[at(v)]);
   append(share.tet_ids, ghosts.block.tet_ids);
   append(share.tet_material, ghosts.block.tet_material);
