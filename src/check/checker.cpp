@@ -109,8 +109,8 @@ bool Checker::match()
   return true;
 }
 
-// Whether the pieces read so far have point ids, all or none.
-bool Checker::has_ids_of_all_or_none(GlobalIndex num_read)
+// By what points are matched from here on. False if only some of the pieces so far have ids.
+bool Checker::settle_identity(GlobalIndex num_read)
 {
   const GlobalIndex num_with_ids = comm_.sum(counts_.num_pieces_with_point_ids);
   if (identity_ == VertexIdentity::ids && num_with_ids > 0 && num_with_ids < num_read) return false;
@@ -123,7 +123,7 @@ bool Checker::read_batch(LocalIndex batch)
 {
   const Range tets = batch_of(tets_.num_pieces, batch);
   for_each_own_piece(tets, false, [&](PieceName name) { read_tets(name); });
-  return has_ids_of_all_or_none(tets.end);
+  return settle_identity(tets.end);
 }
 
 // All of them behind the tets, so that every side of a triangle is known when its like in the
@@ -135,7 +135,7 @@ bool Checker::read_listed_vertices()
     const Range listed = batch_of(boundary_->num_pieces, batch);
     std::vector<VertexRecord> vertices;
     for_each_own_piece(listed, true, [&](PieceName name) { read_boundary(name, vertices); });
-    if (!has_ids_of_all_or_none(tets_.num_pieces + listed.end)) return false;
+    if (!settle_identity(tets_.num_pieces + listed.end)) return false;
     vertices_.add(vertices, identity_);
   }
   return true;

@@ -110,7 +110,7 @@ class Checker {
   void read_tets(PieceName name);
   void read_boundary(PieceName name, std::vector<VertexRecord>& vertices);
   void take_ids(const PieceMesh& mesh, const PieceSurface& surface);
-  [[nodiscard]] bool has_ids_of_all_or_none(GlobalIndex num_read);
+  [[nodiscard]] bool settle_identity(GlobalIndex num_read);
   [[nodiscard]] bool read_batch(LocalIndex batch);
   [[nodiscard]] bool read_listed_vertices();
   [[nodiscard]] std::span<PieceSurface> surfaces_of(Range pieces);

@@ -391,7 +391,7 @@ model::ModelSource import_csg(const std::filesystem::path& file,
                               const model::AssemblyOptions& options)
 {
   model::ModelSource source{.format = model::Format::csg, .file_name = file.string()};
-  const std::string text = text_of(file);
+  const std::string text = text_of_file(file);
   const auto* first = reinterpret_cast<const std::byte*>(text.data());
   source.content.assign(first, first + text.size());
   const SkippedStatements skipped;

@@ -17,7 +17,7 @@ namespace tessera::netgen {
 
 using Geometry = ::netgen::CSGeometry;
 
-std::string text_of(const std::filesystem::path& file)
+std::string text_of_file(const std::filesystem::path& file)
 {
   std::ifstream in(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};

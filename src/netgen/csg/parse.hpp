@@ -13,7 +13,7 @@
 namespace tessera::netgen {
 
 /// @brief The text of a file. Local. @throws InputError
-[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& file);
 
 /// @brief NETGEN's geometry of the text of a .geo file, with cones, tori and planes described such
 /// that NETGEN can mesh them. Local. @throws InputError
