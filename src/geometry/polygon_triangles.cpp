@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <set>
+#include <numeric>
 #include <utility>
 
 namespace tessera::geometry {
@@ -13,13 +14,6 @@ namespace {
 using Point = PlaneMesh::Point;
 using Triangle = PlaneMesh::Triangle;
 using Loop = PlaneMesh::Loop;
-using Edge = std::pair<LocalIndex, LocalIndex>;
-
-// Twice the area of a triangle, with its sign.
-double turn(const Point& a, const Point& b, const Point& c)
-{
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
 
 double squared_distance(const Point& a, const Point& b)
 {
@@ -43,16 +37,17 @@ bool cross(const Point& a, const Point& b, const Point& c, const Point& d)
   return to_c * to_d <= 0.0 && to_a * to_b <= 0.0;
 }
 
-class EarCutter {
+class PolygonTriangulator {
  public:
-  EarCutter(const std::vector<Point>& points, const std::vector<Loop>& loops)
-      : points_(points), loops_(loops)
+  PolygonTriangulator(const std::vector<Point>& points, const std::vector<Loop>& loops,
+                      double tolerance)
+      : points_(points), loops_(loops), tolerance_(tolerance)
   {
   }
 
   std::vector<Triangle> run()
   {
-    if (loops_.empty() || crosses_itself()) return {};
+    if (loops_.empty()) return {};
     Loop ring = loops_.front();
     std::vector<std::size_t> holes;
     for (std::size_t h = 1; h < loops_.size(); ++h) holes.push_back(h);
@@ -60,30 +55,18 @@ class EarCutter {
     std::ranges::sort(holes, [this](std::size_t a, std::size_t b) {
       return point(rightmost(loops_[a])) > point(rightmost(loops_[b]));
     });
-    for (const std::size_t h : holes) {
-      if (!join(ring, loops_[h])) return {};
+    for (const std::size_t h : holes) join(ring, loops_[h]);
+    std::vector<Triangle> triangles;
+    for (const Loop& piece : pieces_of(std::move(ring))) {
+      std::vector<Triangle> some = cut_ears(piece);
+      if (some.size() + 2 < piece.size()) some = fill(piece);
+      triangles.insert(triangles.end(), some.begin(), some.end());
     }
-    return cut(std::move(ring));
+    return triangles;
   }
 
  private:
   [[nodiscard]] const Point& point(LocalIndex v) const { return points_[at(v)]; }
-
-  [[nodiscard]] bool crosses_itself() const
-  {
-    std::vector<std::array<Point, 2>> sides;
-    for (const Loop& loop : loops_) {
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        sides.push_back({point(loop[i]), point(loop[(i + 1) % loop.size()])});
-      }
-    }
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (cross(sides[i][0], sides[i][1], sides[j][0], sides[j][1])) return true;
-      }
-    }
-    return false;
-  }
 
   [[nodiscard]] LocalIndex rightmost(const Loop& loop) const
   {
@@ -91,29 +74,34 @@ class EarCutter {
         loop, [this](LocalIndex a, LocalIndex b) { return point(a) < point(b); });
   }
 
-  // Makes one ring of a ring and a hole, by a bridge there and back that crosses nothing.
-  bool join(Loop& ring, const Loop& hole) const
+  // Makes one ring of a ring and a hole: at a common point, or by a bridge there and back, which
+  // crosses nothing if there is such a one.
+  void join(Loop& ring, const Loop& hole) const
   {
+    const auto common = std::ranges::find_first_of(hole, ring);
+    if (common != hole.end()) {
+      Loop around(common + 1, hole.end());
+      around.insert(around.end(), hole.begin(), common + 1);
+      ring.insert(std::ranges::find(ring, *common) + 1, around.begin(), around.end());
+      return;
+    }
     const auto start = std::ranges::find(hole, rightmost(hole));
     std::vector<std::size_t> ends(ring.size());
-    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = i;
+    std::iota(ends.begin(), ends.end(), 0);
     std::ranges::sort(ends, [&](std::size_t a, std::size_t b) {
       return squared_distance(point(ring[a]), point(*start))
              < squared_distance(point(ring[b]), point(*start));
     });
-    for (const std::size_t end : ends) {
-      if (!sees(ring, end, point(*start)) || is_crossed(ring, point(ring[end]), point(*start))) {
-        continue;
-      }
-      Loop bridge(start, hole.end());
-      bridge.insert(bridge.end(), hole.begin(), start);
-      bridge.push_back(*start);
-      bridge.push_back(ring[end]);
-      ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(end) + 1, bridge.begin(),
-                  bridge.end());
-      return true;
-    }
-    return false;
+    const auto is_free = [&](std::size_t end) {
+      return sees(ring, end, point(*start)) && !is_crossed(ring, point(ring[end]), point(*start));
+    };
+    const auto first_free = std::ranges::find_if(ends, is_free);
+    const std::size_t end = first_free == ends.end() ? ends.front() : *first_free;
+    Loop bridge(start, hole.end());
+    bridge.insert(bridge.end(), hole.begin(), start);
+    bridge.push_back(*start);
+    bridge.push_back(ring[end]);
+    ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(end) + 1, bridge.begin(), bridge.end());
   }
 
   // Whether a corner of the ring has the point on its inner side: bridges give a place two corners.
@@ -140,23 +128,124 @@ class EarCutter {
     return crosses_side_of(ring) || std::any_of(loops_.begin() + 1, loops_.end(), crosses_side_of);
   }
 
-  [[nodiscard]] std::vector<Triangle> cut(Loop ring) const
+  // Parts a ring where it comes to a point again, unless that is where a hole was joined to it.
+  [[nodiscard]] std::vector<Loop> pieces_of(Loop ring) const
+  {
+    std::vector<Loop> pieces;
+    std::vector<Loop> rings{std::move(ring)};
+    while (!rings.empty()) {
+      Loop whole = std::move(rings.back());
+      rings.pop_back();
+      if (auto [one, other] = parts_of(whole); !one.empty()) {
+        rings.push_back(std::move(one));
+        rings.push_back(std::move(other));
+      } else if (whole.size() >= 3) {
+        pieces.push_back(std::move(whole));
+      }
+    }
+    return pieces;
+  }
+
+  // Nothing if the ring cannot be parted.
+  [[nodiscard]] std::pair<Loop, Loop> parts_of(const Loop& ring) const
+  {
+    std::map<LocalIndex, std::size_t> last_place;
+    for (std::size_t j = 0; j < ring.size(); ++j) {
+      const auto [before, is_first] = last_place.try_emplace(ring[j], j);
+      if (is_first) continue;
+      const auto from = ring.begin() + static_cast<std::ptrdiff_t>(before->second);
+      const auto to = ring.begin() + static_cast<std::ptrdiff_t>(j);
+      const Loop one(from, to);
+      Loop other(to, ring.end());
+      other.insert(other.end(), ring.begin(), from);
+      if (is_no_hole(one) && is_no_hole(other)) return {one, other};
+      before->second = j;
+    }
+    return {};
+  }
+
+  // What is thinner than the tolerance may be inside out.
+  [[nodiscard]] bool is_no_hole(const Loop& loop) const
+  {
+    double area = 0.0;
+    double around = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Point& a = point(loop[i]);
+      const Point& b = point(loop[(i + 1) % loop.size()]);
+      area += 0.5 * turn(point(loop[0]), a, b);
+      around += std::sqrt(squared_distance(a, b));
+    }
+    return area >= -tolerance_ * around;
+  }
+
+  // As many as can be had. A ring that crosses itself nowhere is all ears.
+  [[nodiscard]] std::vector<Triangle> cut_ears(Loop ring) const
   {
     std::vector<Triangle> triangles;
     std::size_t i = 0;
-    for (std::size_t without = 0; ring.size() > 3 && without <= ring.size(); ++without) {
+    for (std::size_t without = 0; ring.size() >= 3 && without <= ring.size(); ++without) {
       i %= ring.size();
       const Triangle ear = corner(ring, i);
-      if (is_ear(ring, ear)) {
+      if (ring.size() > 3 ? is_ear(ring, ear) : turn_of(ear) >= 0.0) {
         triangles.push_back(ear);
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
         without = 0;
       }
       ++i;  // Also after an ear: a fan from one corner has thin triangles.
     }
-    if (ring.size() > 3 || turn_of(corner(ring, 1)) < 0.0) return {};
-    triangles.push_back(corner(ring, 1));
     return triangles;
+  }
+
+  // The triangles of a ring that fold back least, and among these those of the shortest sides: of
+  // each piece of the ring, from the smallest ones on, the best triangle over the side that closes
+  // it (the dynamic programming of Gilbert and of Klincsek).
+  [[nodiscard]] std::vector<Triangle> fill(const Loop& ring) const
+  {
+    const std::size_t n = ring.size();
+    if (n > kMostToFill) return {};
+    std::vector<double> cost(n * n, 0.0);
+    std::vector<std::size_t> apex(n * n, 0);
+    for (std::size_t length = 2; length < n; ++length) {
+      for (std::size_t i = 0; i + length < n; ++i) {
+        const std::size_t j = i + length;
+        double& best = cost[i * n + j] = std::numeric_limits<double>::infinity();
+        for (std::size_t k = i + 1; k < j; ++k) {
+          const double sum =
+              cost[i * n + k] + cost[k * n + j] + cost_of({ring[i], ring[k], ring[j]});
+          if (sum >= best) continue;
+          best = sum;
+          apex[i * n + j] = k;
+        }
+      }
+    }
+    return filling(ring, apex);
+  }
+
+  static std::vector<Triangle> filling(const Loop& ring, const std::vector<std::size_t>& apex)
+  {
+    const std::size_t n = ring.size();
+    std::vector<Triangle> triangles;
+    std::vector<std::pair<std::size_t, std::size_t>> pieces{{0, n - 1}};
+    while (!pieces.empty()) {
+      const auto [i, j] = pieces.back();
+      pieces.pop_back();
+      if (j < i + 2) continue;
+      const std::size_t k = apex[i * n + j];
+      triangles.push_back({ring[i], ring[k], ring[j]});
+      pieces.emplace_back(i, k);
+      pieces.emplace_back(k, j);
+    }
+    return triangles;
+  }
+
+  [[nodiscard]] double cost_of(const Triangle& t) const
+  {
+    constexpr double kOfFolds = 1e6;  // Such that no notch is lost but one within rounding.
+    double cost = kOfFolds * std::max(0.0, -turn_of(t));
+    for (std::size_t c = 0; c < 3; ++c) {
+      cost += squared_distance(point(t[c]), point(t[(c + 1) % 3]));
+    }
+    return cost;
   }
 
   [[nodiscard]] static Triangle corner(const Loop& ring, std::size_t i)
@@ -181,160 +270,43 @@ class EarCutter {
     });
   }
 
+  // The time goes with the cube of the corners: 1,500 of them take a second.
+  static constexpr std::size_t kMostToFill = 1500;
+
   const std::vector<Point>& points_;
   const std::vector<Loop>& loops_;
+  double tolerance_;
 };
 
-// Changes the triangles on both sides of inner edges.
-class EdgeChanger {
- public:
-  explicit EdgeChanger(PlaneMesh& mesh) : mesh_(mesh) {}
-
-  // Ends: each swap makes the triangulation more Delaunay; the bound is for rounding alone.
-  void swap_to_delaunay()
-  {
-    const std::size_t most_rounds = 20 + mesh_.triangles.size();
-    for (std::size_t round = 0; round < most_rounds; ++round) {
-      if (!change([this](const Edge& edge, const Sides& sides) { return swap(edge, sides); }))
-        break;
+// Whether what folds back is no more than a boundary that is off by its tolerance makes.
+bool is_sound(const PlaneMesh& mesh, const std::vector<Loop>& loops)
+{
+  constexpr double kMostFolded = 1e-3;  // Of the square of the length around.
+  double around = 0.0;
+  for (const Loop& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      around += std::sqrt(
+          squared_distance(mesh.points[at(loop[i])], mesh.points[at(loop[(i + 1) % loop.size()])]));
     }
   }
-
-  // Whether an edge was halved.
-  template <class IsBad>
-  bool halve(const IsBad& is_bad, std::size_t most_points)
-  {
-    return change([&](const Edge& edge, const Sides& sides) {
-      if (mesh_.points.size() >= most_points || is_too_near_border(edge, sides)) return false;
-      if (!is_bad(point(edge.first), point(edge.second))) return false;
-      split(edge, sides);
-      return true;
-    });
+  double folded = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    folded += std::max(0.0, -turn(mesh.points[at(a)], mesh.points[at(b)], mesh.points[at(c)]));
   }
-
- private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  using Sides = std::array<std::size_t, 2>;  // Triangles left and right of an edge.
-
-  [[nodiscard]] const Point& point(LocalIndex v) const { return mesh_.points[at(v)]; }
-
-  template <class Change>
-  bool change(const Change& change_edge)
-  {
-    std::map<Edge, Sides> edges;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const LocalIndex a = mesh_.triangles[t][c];
-        const LocalIndex b = mesh_.triangles[t][(c + 1) % 3];
-        auto& sides = edges.try_emplace(std::minmax(a, b), Sides{kNone, kNone}).first->second;
-        sides[a < b ? 0 : 1] = t;
-      }
-    }
-    borders_.clear();
-    for (const auto& [edge, sides] : edges) {
-      if (sides[0] == kNone || sides[1] == kNone) borders_.insert(edge);
-    }
-    std::vector<char> is_old(mesh_.triangles.size(), 1);
-    bool has_changed = false;
-    for (const auto& [edge, sides] : edges) {
-      if (sides[0] == kNone || sides[1] == kNone) continue;
-      if (is_old[sides[0]] == 0 || is_old[sides[1]] == 0) continue;
-      if (!change_edge(edge, sides)) continue;
-      is_old[sides[0]] = is_old[sides[1]] = 0;
-      has_changed = true;
-    }
-    return has_changed;
-  }
-
-  // Whether the middle of an edge is in the circle over a side of the polygon: sides stay whole, so
-  // ever more points would come ever nearer to it.
-  [[nodiscard]] bool is_too_near_border(const Edge& edge, const Sides& sides) const
-  {
-    const Point& p = point(edge.first);
-    const Point& q = point(edge.second);
-    const Point middle{0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])};
-    for (const std::size_t t : sides) {
-      const LocalIndex corner = opposite(edge, t);
-      for (const LocalIndex end : {edge.first, edge.second}) {
-        if (!borders_.contains(std::minmax(corner, end))) continue;
-        const Point& a = point(corner);
-        const Point& b = point(end);
-        const double along =
-            (a[0] - middle[0]) * (b[0] - middle[0]) + (a[1] - middle[1]) * (b[1] - middle[1]);
-        if (along < 0.0) return true;
-      }
-    }
-    return false;
-  }
-
-  [[nodiscard]] LocalIndex opposite(const Edge& edge, std::size_t triangle) const
-  {
-    const Triangle& t = mesh_.triangles[triangle];
-    return *std::ranges::find_if(t,
-                                 [&](LocalIndex v) { return v != edge.first && v != edge.second; });
-  }
-
-  [[nodiscard]] double angle(LocalIndex corner, const Edge& ends) const
-  {
-    const Point& p = point(corner);
-    const Point& a = point(ends.first);
-    const Point& b = point(ends.second);
-    const double along = (a[0] - p[0]) * (b[0] - p[0]) + (a[1] - p[1]) * (b[1] - p[1]);
-    return std::atan2(std::abs(turn(p, a, b)), along);
-  }
-
-  bool swap(const Edge& edge, const Sides& sides)
-  {
-    constexpr double kRounding = 1e-9;  // Radians.
-    const auto [a, b] = edge;
-    const LocalIndex left = opposite(edge, sides[0]);
-    const LocalIndex right = opposite(edge, sides[1]);
-    if (left == right) return false;
-    if (angle(left, edge) + angle(right, edge) <= M_PI + kRounding) return false;
-    if (turn(point(right), point(b), point(left)) <= 0.0) return false;
-    if (turn(point(left), point(a), point(right)) <= 0.0) return false;
-    mesh_.triangles[sides[0]] = {right, b, left};
-    mesh_.triangles[sides[1]] = {left, a, right};
-    return true;
-  }
-
-  void split(const Edge& edge, const Sides& sides)
-  {
-    const auto [a, b] = edge;
-    const LocalIndex left = opposite(edge, sides[0]);
-    const LocalIndex right = opposite(edge, sides[1]);
-    const auto middle = static_cast<LocalIndex>(mesh_.points.size());
-    const Point p = point(a);
-    const Point q = point(b);
-    mesh_.points.push_back({0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])});
-    mesh_.triangles[sides[0]] = {a, middle, left};
-    mesh_.triangles[sides[1]] = {b, middle, right};
-    mesh_.triangles.push_back({middle, b, left});
-    mesh_.triangles.push_back({middle, a, right});
-  }
-
-  PlaneMesh& mesh_;
-  std::set<Edge> borders_{};
-};
+  return folded <= kMostFolded * around * around;
+}
 
 }  // namespace
 
-PlaneMesh triangulate_polygon(std::vector<Point> points, const std::vector<Loop>& loops)
+PlaneMesh triangulate_polygon(std::vector<Point> points, const std::vector<Loop>& loops,
+                              double tolerance)
 {
   PlaneMesh mesh;
-  mesh.triangles = EarCutter(points, loops).run();
+  mesh.triangles = PolygonTriangulator(points, loops, tolerance).run();
   mesh.points = std::move(points);
-  EdgeChanger(mesh).swap_to_delaunay();
+  if (!is_sound(mesh, loops)) mesh.triangles.clear();
+  swap_to_delaunay(mesh);
   return mesh;
-}
-
-void refine_inside(PlaneMesh& mesh, const std::function<bool(const Point&, const Point&)>& is_bad,
-                   std::size_t most_points)
-{
-  EdgeChanger changer(mesh);
-  while (mesh.points.size() < most_points && changer.halve(is_bad, most_points)) {
-    changer.swap_to_delaunay();
-  }
 }
 
 }  // namespace tessera::geometry

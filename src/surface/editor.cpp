@@ -27,6 +27,11 @@ constexpr double kLeastCosine = 0.5;
 // A new edge of a curve may leave the curve by this part of its length.
 constexpr double kMostSagitta = 0.2;
 
+// Both parts of a split edge must be shorter than it by this part of the shorter one, or it would
+// be split for ever: beside what was merged, edges lie beyond the faces of the reference, where all
+// of an edge may be nearest to one of its ends.
+constexpr double kLeastProgress = 0.2;
+
 // In parts of the wanted length.
 constexpr double kMostOffReference = 0.5;
 
@@ -256,10 +261,14 @@ LocalIndex SurfaceEditor::split(const Edge& edge, double part)
 {
   const std::vector<LocalIndex> old = surface_.triangles_at(edge);
   const Vec3& a = surface_.xyz(edge[0]);
-  const Vec3 chord = a + part * (surface_.xyz(edge[1]) - a);
+  const Vec3& b = surface_.xyz(edge[1]);
+  const Vec3 chord = a + part * (b - a);
   const Vec3 wanted = on_reference(edge, chord);
   const bool is_inside = surface_.curve(edge[0], edge[1]) == kNoIndex;
-  const bool is_free = !guard_ || cuts_nothing(old, halves(old, edge, wanted), is_inside);
+  const double most = (1.0 - kLeastProgress * std::min(part, 1.0 - part)) * norm(b - a);
+  const bool is_between = norm(wanted - a) <= most && norm(wanted - b) <= most;
+  const bool is_free =
+      is_between && (!guard_ || cuts_nothing(old, halves(old, edge, wanted), is_inside));
   const LocalIndex middle = surface_.split(edge, is_free ? wanted : chord);
   surface_.set_size(middle, sizes_(surface_.xyz(middle)));
   const std::span<const LocalIndex> made = surface_.triangles_of(middle);

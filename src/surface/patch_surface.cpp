@@ -61,8 +61,8 @@ void for_each_edge(std::span<const Side> sides, const Visit& visit)
   }
 }
 
-// Splits the triangles on one sheet of a patch at an edge.
-void split_sheet(PatchSurface& surface, const Side& side)
+// Splits the triangles on one sheet of a patch at an edge, or all of the patch there.
+void split_sheet(PatchSurface& surface, const Side& side, bool is_all)
 {
   const auto [a, b] = side.edge;
   const auto middle = static_cast<LocalIndex>(surface.vertex_xyz.size());
@@ -77,7 +77,7 @@ void split_sheet(PatchSurface& surface, const Side& side)
     const auto corner_a = static_cast<std::size_t>(at_a - v.begin());
     const auto corner_b = static_cast<std::size_t>(at_b - v.begin());
     const std::array<double, 2> uv_new = uv_middle(surface, t, corner_a, corner_b);
-    if (uv_new != side.uv_middle) continue;
+    if (!is_all && uv_new != side.uv_middle) continue;
     PatchSurface::Triangle other = v;
     other[corner_a] = middle;
     v[corner_b] = middle;
@@ -110,8 +110,10 @@ void separate_patches(PatchSurface& surface)
     const bool is_one_sheet = sides.size() == 2 && sides[0].patch == sides[1].patch;
     if (is_one_sheet || std::ranges::binary_search(surface.edges, sides[0].edge)) return;
     for (std::size_t s = 1; s < sides.size(); ++s) {
-      if (sides[s] == sides[s - 1]) continue;
-      split_sheet(surface, sides[s]);
+      const LocalIndex patch = sides[s].patch;
+      const bool is_all = std::ranges::count(sides, patch, &Side::patch) == 2;
+      if (sides[s] == sides[s - 1] || (is_all && patch == sides[s - 1].patch)) continue;
+      split_sheet(surface, sides[s], is_all);
       note_repair(Repair::separated_sheets);
     }
   });

@@ -93,6 +93,12 @@ class LoopMaker {
  private:
   using Chain = std::vector<std::size_t>;  // Sides, one after the other.
 
+  struct Corner {
+    TopoDS_Vertex vertex{};
+    LocalIndex node = kNoIndex;
+    double interval = 0.0;  // To the next point of its side.
+  };
+
   [[nodiscard]] FaceSide side_of(const TopoDS_Edge& edge) const
   {
     FaceSide side{.edge = edge};
@@ -207,16 +213,17 @@ class LoopMaker {
     return std::hypot(scale_[0] * (a[0] - b[0]), scale_[1] * (a[1] - b[1]));
   }
 
+  // From one end of a side, which is in row `place`, to the next point.
+  [[nodiscard]] double interval_at(const FaceSide& side, std::size_t place) const
+  {
+    return distance(side.uv[place], side.uv[place == 0 ? 1 : place - 1]);
+  }
+
   [[nodiscard]] bool is_same_corner(const FaceSide& before, const FaceSide& after) const
   {
-    const std::size_t b = before.uv.size();
-    const std::size_t a = after.uv.size();
-    const double last_interval = is_forward(before) ? distance(before.uv[b - 1], before.uv[b - 2])
-                                                    : distance(before.uv[0], before.uv[1]);
-    const double next_interval = is_forward(after) ? distance(after.uv[0], after.uv[1])
-                                                   : distance(after.uv[a - 1], after.uv[a - 2]);
-    return distance(end(before), start(after))
-           <= kSameCorner * std::min(last_interval, next_interval);
+    const double last = interval_at(before, is_forward(before) ? before.uv.size() - 1 : 0);
+    const double next = interval_at(after, is_forward(after) ? 0 : after.uv.size() - 1);
+    return distance(end(before), start(after)) <= kSameCorner * std::min(last, next);
   }
 
   bool add_loop(const Chain& chain)
@@ -236,11 +243,12 @@ class LoopMaker {
       joins_next.push_back(is_same_corner(sides[chain[i]], sides[chain[(i + 1) % chain.size()]]));
     }
     // Of a face as narrow as its tolerance nothing would be left.
-    if (num_points(chain) < 3 + chain.size()) joins_next.assign(chain.size(), 0);
+    const bool has_few_points = num_points(chain) < 3 + chain.size();
+    if (has_few_points) joins_next.assign(chain.size(), 0);
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const bool joins = i > 0 && joins_next[i - 1] != 0;
       const bool ends_at_first = i + 1 == chain.size() && joins_next[i] != 0;
-      add_side(made_.sides[chain[i]], joins, ends_at_first, loop);
+      add_side(made_.sides[chain[i]], joins, ends_at_first, has_few_points, loop);
     }
     if (loop.size() < 3) return false;
     made_.loops.push_back(std::move(loop));
@@ -254,7 +262,8 @@ class LoopMaker {
     return count;
   }
 
-  void add_side(FaceSide& side, bool joins, bool ends_at_first, geometry::PlaneMesh::Loop& loop)
+  void add_side(FaceSide& side, bool joins, bool ends_at_first, bool has_few_points,
+                geometry::PlaneMesh::Loop& loop)
   {
     const std::size_t count = side.uv.size();
     side.nodes.assign(count, kNoIndex);
@@ -266,11 +275,34 @@ class LoopMaker {
       } else if (i + 1 == count && ends_at_first) {
         node = loop.front();
       } else {
-        node = static_cast<LocalIndex>(made_.uv.size());
-        made_.uv.push_back(side.uv[place]);
+        const bool may_touch = !has_few_points && (i == 0 || i + 1 == count);
+        node = may_touch ? corner_node(side, place) : add_node(side.uv[place]);
         loop.push_back(node);
       }
     }
+  }
+
+  LocalIndex add_node(const Point& uv)
+  {
+    made_.uv.push_back(uv);
+    return static_cast<LocalIndex>(made_.uv.size()) - 1;
+  }
+
+  // Where loops touch they have one node. The two ends of a seam are one vertex and two places.
+  LocalIndex corner_node(const FaceSide& side, std::size_t place)
+  {
+    const TopoDS_Vertex vertex =
+        place == 0 ? TopExp::FirstVertex(side.edge) : TopExp::LastVertex(side.edge);
+    const double interval = interval_at(side, place);
+    const auto is_here = [&](const Corner& corner) {
+      return corner.vertex.IsSame(vertex)
+             && distance(made_.uv[at(corner.node)], side.uv[place])
+                    <= kSameCorner * std::min(corner.interval, interval);
+    };
+    const auto known = std::ranges::find_if(corners_, is_here);
+    if (known != corners_.end()) return known->node;
+    corners_.push_back({vertex, add_node(side.uv[place]), interval});
+    return corners_.back().node;
   }
 
   TopoDS_Face face_;
@@ -279,6 +311,7 @@ class LoopMaker {
   std::array<double, 2> periods_{};
   std::array<double, 2> scale_{1.0, 1.0};
   std::vector<Chain> chains_{};
+  std::vector<Corner> corners_{};
   FaceLoops made_{};
 };
 

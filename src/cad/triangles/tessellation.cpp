@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@
 #include "tessera/base/union_find.hpp"
 #include "tessera/surface/overlap.hpp"
 
+#include "cad/shape.hpp"
 #include "cad/triangles/triangulation.hpp"
 
 namespace tessera::cad {
@@ -42,21 +44,21 @@ constexpr double kDeflection = 0.02;
 constexpr double kAngle = 0.25;
 
 // Triangles of two sheets cut each other if they are farther off than the sheets are apart. Then
-// they are made finer by this factor, as long as that helps.
+// those of both faces are made finer by this factor, as long as that helps.
 constexpr double kFiner = 0.25;
 constexpr int kMostFiner = 2;
 
-void triangulate(const TopoDS_Shape& shape, double size, double part)
+void triangulate(const TopoDS_Shape& shape, double size, const std::vector<double>& face_part)
 {
   IMeshTools_Parameters parameters;
-  parameters.Deflection = part * kDeflection * size;
-  parameters.Angle = std::sqrt(part) * kAngle;
-  const std::vector<int> bare = triangulate_faces(shape, parameters);
+  parameters.Deflection = kDeflection * size;
+  parameters.Angle = kAngle;
+  const std::vector<int> bare = triangulate_faces(shape, parameters, face_part);
   if (bare.empty()) return;
   throw NetgenError(fmt::format(
       "face {} can be triangulated neither by OpenCASCADE nor from its boundary; repair it in the "
       "CAD program",
-      bare.front()));
+      bare.front() + 1));
 }
 
 class Tessellation {
@@ -228,10 +230,11 @@ class Tessellation {
   PatchSurface surface_{};
 };
 
-// With triangles that are off the shape by `part` of what they usually are.
-PatchSurface triangles_of(const TopoDS_Shape& shape, double size, double part)
+// With triangles that are off each face by its part of what they usually are.
+PatchSurface triangles_of(const TopoDS_Shape& shape, double size,
+                          const std::vector<double>& face_part)
 {
-  triangulate(shape, size, part);
+  triangulate(shape, size, face_part);
   PatchSurface surface = Tessellation(shape).run();
   surface::separate_patches(surface);
   try {
@@ -242,19 +245,31 @@ PatchSurface triangles_of(const TopoDS_Shape& shape, double size, double part)
   return surface;
 }
 
+std::set<LocalIndex> patches_of(const std::vector<surface::Overlap>& cuts,
+                                const PatchSurface& surface)
+{
+  std::set<LocalIndex> patches;
+  for (const surface::Overlap& cut : cuts) {
+    patches.insert(surface.triangle_patch[cut.first]);
+    patches.insert(surface.triangle_patch[cut.second]);
+  }
+  return patches;
+}
+
 }  // namespace
 
 PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
 {
-  PatchSurface best = triangles_of(shape, size, 1.0);
+  std::vector<double> face_part(parts_of(shape, TopAbs_FACE).size(), 1.0);
+  PatchSurface best = triangles_of(shape, size, face_part);
   if (is_left_out(Repair::finer_tessellation)) return best;
-  std::size_t num_cuts = surface::find_overlaps(best).size();
-  double part = kFiner;
-  for (int round = 0; round < kMostFiner && num_cuts > 0; ++round, part *= kFiner) {
-    PatchSurface finer = triangles_of(shape, size, part);
-    const std::size_t num_left = surface::find_overlaps(finer).size();
-    if (num_left >= num_cuts) break;
-    num_cuts = num_left;
+  std::vector<surface::Overlap> cuts = surface::find_overlaps(best);
+  for (int round = 0; round < kMostFiner && !cuts.empty(); ++round) {
+    for (const LocalIndex patch : patches_of(cuts, best)) face_part[at(patch)] *= kFiner;
+    PatchSurface finer = triangles_of(shape, size, face_part);
+    std::vector<surface::Overlap> left = surface::find_overlaps(finer);
+    if (left.size() >= cuts.size()) break;
+    cuts = std::move(left);
     best = std::move(finer);
     note_repair(Repair::finer_tessellation);
   }

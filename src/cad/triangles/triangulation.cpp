@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 
 #include "tessera/base/given_up.hpp"
@@ -26,6 +28,7 @@
 #include "cad/error.hpp"
 #include "cad/shape.hpp"
 #include "cad/triangles/face_loops.hpp"
+#include "cad/triangles/whole_face.hpp"
 
 namespace tessera::cad {
 namespace {
@@ -34,13 +37,6 @@ using Point = geometry::PlaneMesh::Point;
 
 constexpr std::size_t kMostPoints =
     20'000;  // Of a face of our own; more means that its parameters are odd.
-
-bool has_triangles(const TopoDS_Face& face)
-{
-  TopLoc_Location place;
-  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
-  return !mesh.IsNull() && mesh->NbTriangles() > 0;
-}
 
 double signed_area(const std::vector<Point>& points, const geometry::PlaneMesh::Loop& loop)
 {
@@ -71,7 +67,8 @@ class FaceTriangulator {
     if (!order_loops()) return false;
     std::vector<Point> points;
     for (const Point& uv : boundary_.uv) points.push_back(to_plane(uv));
-    geometry::PlaneMesh mesh = geometry::triangulate_polygon(std::move(points), boundary_.loops);
+    geometry::PlaneMesh mesh = geometry::triangulate_polygon(std::move(points), boundary_.loops,
+                                                             BRep_Tool::Tolerance(face_));
     if (mesh.triangles.empty()) return false;
     geometry::refine_inside(
         mesh, [this](const Point& a, const Point& b) { return is_off(a, b); }, kMostPoints);
@@ -111,7 +108,8 @@ class FaceTriangulator {
     return middle.Distance(chord) > closeness_.deflection;
   }
 
-  // The largest loop is the outer one. It runs counter-clockwise, for the face is upright.
+  // The largest loop is the outer one. It should run counter-clockwise, for the face is upright; a
+  // face as narrow as its tolerance may have it the other way round.
   bool order_loops()
   {
     std::vector<geometry::PlaneMesh::Loop>& loops = boundary_.loops;
@@ -120,7 +118,6 @@ class FaceTriangulator {
       return std::abs(signed_area(boundary_.uv, loop));
     };
     std::ranges::stable_sort(loops, std::ranges::greater{}, size);
-    if (!(signed_area(boundary_.uv, loops.front()) > 0.0)) return false;
     for (std::size_t h = 1; h < loops.size(); ++h) {
       if (signed_area(boundary_.uv, loops[h]) > 0.0) std::ranges::reverse(loops[h]);
     }
@@ -142,6 +139,7 @@ class FaceTriangulator {
       triangles->SetTriangle(static_cast<int>(t) + 1, Poly_Triangle(a + 1, b + 1, c + 1));
     }
     triangles->Deflection(closeness_.deflection);
+    BRepTools::Clean(face_);  // Else polygons of earlier triangles would be taken for ones in use.
     BRep_Builder().UpdateFace(face_, triangles);
     store_sides(triangles);
   }
@@ -204,6 +202,30 @@ Closeness closeness_for(const TopoDS_Shape& face, const IMeshTools_Parameters& p
   return {parameters.Deflection * unit, parameters.Angle};
 }
 
+IMeshTools_Parameters finer_than(IMeshTools_Parameters parameters, double part)
+{
+  parameters.Deflection *= part;
+  parameters.Angle *= std::sqrt(part);
+  return parameters;
+}
+
+// The finest first: OpenCASCADE leaves triangles and edges alone that are as fine as it is asked
+// for, or finer.
+void triangulate_finer(const std::vector<TopoDS_Shape>& faces, const std::vector<double>& face_part,
+                       const IMeshTools_Parameters& parameters)
+{
+  const std::set<double> parts(face_part.begin(), face_part.end());
+  for (const double part : parts) {
+    if (part >= 1.0) break;
+    TopoDS_Compound some;
+    BRep_Builder().MakeCompound(some);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (face_part[f] == part) BRep_Builder().Add(some, faces[f]);
+    }
+    BRepMesh_IncrementalMesh(some, finer_than(parameters, part));
+  }
+}
+
 // Of the boundary's points: a face without sound boundary may have no bounds of its own.
 std::array<Point, 2> parameter_box(const TopoDS_Face& face)
 {
@@ -237,22 +259,25 @@ bool triangulate_from_boundary(const TopoDS_Shape& face, const Closeness& closen
 }
 
 std::vector<int> triangulate_faces(const TopoDS_Shape& shape,
-                                   const IMeshTools_Parameters& parameters)
+                                   const IMeshTools_Parameters& parameters,
+                                   const std::vector<double>& face_part)
 {
   constexpr std::array<double, 3> kFiner{1.0, 0.3, 0.1};
   const std::vector<TopoDS_Shape> faces = parts_of(shape, TopAbs_FACE);
+  const auto part = [&](std::size_t f) { return face_part.empty() ? 1.0 : face_part[f]; };
   std::vector<int> bare;
   int num_from_boundary = 0;
   for (const double finer : kFiner) {
     IMeshTools_Parameters finer_parameters = parameters;
     finer_parameters.Deflection *= finer;
     BRepTools::Clean(shape);
+    triangulate_finer(faces, face_part, finer_parameters);
     BRepMesh_IncrementalMesh(shape, finer_parameters);
     bare.clear();
     num_from_boundary = 0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (has_triangles(TopoDS::Face(faces[f]))) continue;
-      const Closeness closeness = closeness_for(faces[f], finer_parameters);
+      if (has_whole_triangles(TopoDS::Face(faces[f]))) continue;
+      const Closeness closeness = closeness_for(faces[f], finer_than(finer_parameters, part(f)));
       if (!is_left_out(Repair::face_from_boundary)
           && triangulate_from_boundary(faces[f], closeness)) {
         ++num_from_boundary;

@@ -12,17 +12,21 @@ namespace tessera::cad {
 
 /// @brief Puts triangles on the faces of a shape, in place of what is there. Local.
 ///
-/// OpenCASCADE's mesher comes first. A face that it cannot do gets triangles of our own, made from
-/// its boundary curves in its parameters, with the points that neighbours have on common edges.
-/// Where that fails as well, all is tried again with finer settings.
-/// @return Numbers of faces that have no triangles, in the order of parts_of().
+/// OpenCASCADE's mesher comes first. A face that it cannot do, or not up to its boundary, gets
+/// triangles of our own, made from its boundary curves in its parameters, with the points that
+/// neighbours have on common edges. Where that fails as well, all is tried again with finer
+/// settings.
+/// @param[in] face_part Of each face, in the order of parts_of(): its triangles are off it by this
+/// part of what the others may be, at most 1. Empty: all are alike.
+/// @return Numbers of faces that have no such triangles, in the order of parts_of().
 std::vector<int> triangulate_faces(const TopoDS_Shape& shape,
-                                   const IMeshTools_Parameters& parameters);
+                                   const IMeshTools_Parameters& parameters,
+                                   const std::vector<double>& face_part = {});
 
 /// @brief Triangulates one face from its boundary curves in its parameters. Its triangles have the
 /// points that neighbours have on common edges. Edges inside the face are left out. Local.
-/// @return Whether the face has triangles now: none if its boundary does not close or crosses
-/// itself.
+/// @return Whether that was done: not if its boundary does not close, or crosses itself by more
+/// than a tolerance.
 bool triangulate_from_boundary(const TopoDS_Shape& face, const Closeness& closeness);
 
 /// @brief Gives a face some triangles in its parameters that need not cover it, for who wants to

@@ -56,7 +56,8 @@ EdgeTriangles triangles_by_edge(const PatchSurface& surface)
   triangles.reserve(3 * surface.triangles.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const PatchSurface::Triangle& v = surface.triangles[t];
-    for (std::size_t c = 0; c < 3; ++c) triangles.emplace_back(mesh::sorted_edge(v[c], v[(c + 1) % 3]), t);
+    for (std::size_t c = 0; c < 3; ++c)
+      triangles.emplace_back(mesh::sorted_edge(v[c], v[(c + 1) % 3]), t);
   }
   std::ranges::sort(triangles);
   return triangles;

@@ -21,11 +21,15 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom_Plane.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
+#include <gp_Lin.hxx>
+#include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 #include <gtest/gtest.h>
 
@@ -33,6 +37,7 @@
 
 #include "cad/shape.hpp"
 #include "cad/triangles/triangulation.hpp"
+#include "cad/triangles/whole_face.hpp"
 #include "geometry/polygon_triangles.hpp"
 #include "netgen/cad/occ_fixture.hpp"
 
@@ -91,6 +96,63 @@ TEST(PolygonTriangles, ThereAreNoneOfAPolygonThatCrossesItself)
 {
   EXPECT_TRUE(geometry::triangulate_polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {{0, 1, 2, 3}})
                   .triangles.empty());
+}
+
+// Edges that triangles have on one side only, modulo two.
+std::set<Edge> border_of(const std::vector<geometry::PlaneMesh::Triangle>& triangles)
+{
+  std::set<Edge> border;
+  for (const auto& t : triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Edge edge = std::minmax(t[c], t[(c + 1) % 3]);
+      if (!border.insert(edge).second) border.erase(edge);
+    }
+  }
+  return border;
+}
+
+std::set<Edge> sides_of(const std::vector<geometry::PlaneMesh::Loop>& loops)
+{
+  std::set<Edge> sides;
+  for (const auto& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      sides.insert(std::minmax(loop[i], loop[(i + 1) % loop.size()]));
+    }
+  }
+  return sides;
+}
+
+// A side ends beyond another one, as where the ends of two curves are off each other.
+TEST(PolygonTriangles, FillAPolygonThatCrossesItselfByALittle)
+{
+  const std::vector<Point> points{{0, 0},   {1, 0},          {1, 0.999}, {0.99, 1.01}, {0.98, 1.0},
+                                  {0.5, 1}, {0.9999, 0.995}, {0.4, 0.9}, {0, 1}};
+  const std::vector<geometry::PlaneMesh::Loop> loops{{0, 1, 2, 3, 4, 6, 5, 7, 8}};
+  const geometry::PlaneMesh mesh = geometry::triangulate_polygon(points, loops);
+  EXPECT_EQ(mesh.triangles.size(), points.size() - 2);
+  EXPECT_EQ(border_of(mesh.triangles), sides_of(loops));
+}
+
+// The hole has a side in common with the square, in two pieces, so that a lens is between them.
+TEST(PolygonTriangles, OfLoopsThatTouchLeaveTheHoleFree)
+{
+  const std::vector<Point> points{{0, 0}, {0.4, 0}, {0.6, 0},     {1, 0},
+                                  {1, 1}, {0, 1},   {0.5, 1e-12}, {0.5, 0.5}};
+  const std::vector<geometry::PlaneMesh::Loop> loops{{0, 1, 2, 3, 4, 5}, {1, 7, 2, 6}};
+  for (const double height : {1e-12, 0.0, -1e-12}) {
+    std::vector<Point> moved = points;
+    moved[6][1] = height;
+    const geometry::PlaneMesh mesh = geometry::triangulate_polygon(moved, loops, 1e-7);
+    EXPECT_EQ(border_of(mesh.triangles), sides_of(loops)) << height;
+    double area = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Point& p = points[at(a)];
+      const Point& q = points[at(b)];
+      const Point& r = points[at(c)];
+      area += 0.5 * std::abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+    }
+    EXPECT_NEAR(area, 0.95, 1e-9) << height;
+  }
 }
 
 double area_of(const Poly_Triangulation& mesh)
@@ -182,6 +244,88 @@ INSTANTIATE_TEST_SUITE_P(
                       Solid{"sector", BRepPrimAPI_MakeCone(8, 0, 12, 1.0).Shape()},
                       Solid{"sphere", BRepPrimAPI_MakeSphere(5).Shape()},
                       Solid{"torus", BRepPrimAPI_MakeTorus(10, 3).Shape()}));
+
+// As OpenCASCADE leaves it where the boundary of a face touches itself.
+TEST(WholeTriangles, AFaceWithoutOneOfItsTrianglesIsNoticedAndDoneAnew)
+{
+  const TopoDS_Shape shape = BRepPrimAPI_MakeCylinder(5, 20).Shape();
+  BRepMesh_IncrementalMesh(shape, 0.05, Standard_False, 0.25);
+  BRep_Builder builder;
+  for (const TopoDS_Shape& part : parts_of(shape, TopAbs_FACE)) {
+    const TopoDS_Face& face = TopoDS::Face(part);
+    EXPECT_TRUE(has_whole_triangles(face));
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+    const Handle(Poly_Triangulation) less = mesh->Copy();
+    less->ResizeTriangles(mesh->NbTriangles() - 1, Standard_True);
+    for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+      const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+      const auto polygon = BRep_Tool::PolygonOnTriangulation(edge, mesh, place);
+      if (!BRep_Tool::IsClosed(edge, face)) {
+        builder.UpdateEdge(edge, polygon, less, place);
+      } else if (edge.Orientation() == TopAbs_FORWARD) {
+        const TopoDS_Edge other = TopoDS::Edge(edge.Reversed());
+        builder.UpdateEdge(edge, polygon, BRep_Tool::PolygonOnTriangulation(other, mesh, place),
+                           less, place);
+      }
+    }
+    builder.UpdateFace(face, less);
+    EXPECT_FALSE(has_whole_triangles(face));
+    EXPECT_TRUE(triangulate_from_boundary(face, {0.05, 0.25}));
+    EXPECT_TRUE(has_whole_triangles(face));
+  }
+}
+
+// A wire of two lines between the same two points, as CAD programs leave it of a face of no width.
+TEST(OccTriangulation, AFaceOfNoWidthHasTriangles)
+{
+  const gp_Pnt a(0, 0, 0);
+  const gp_Pnt b(1, 0, 0);
+  BRep_Builder builder;
+  TopoDS_Vertex first;
+  TopoDS_Vertex last;
+  builder.MakeVertex(first, a, 1e-7);
+  builder.MakeVertex(last, b, 1e-7);
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  for (int side = 0; side < 2; ++side) {
+    const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(gp_Lin(a, gp_Dir(1, 0, 0)), first, last);
+    builder.Add(wire, edge.Oriented(side == 0 ? TopAbs_FORWARD : TopAbs_REVERSED));
+  }
+  TopoDS_Face face;
+  builder.MakeFace(face, new Geom_Plane(gp_Pln(a, gp_Dir(0, 0, 1))), 1e-7);
+  builder.Add(face, wire);
+  EXPECT_TRUE(triangulate_from_boundary(face, {0.05, 0.25}));
+  EXPECT_TRUE(has_whole_triangles(face));
+}
+
+TEST(OccTriangulation, OneFaceIsMadeFinerAndItsNeighboursFollowAlongTheirEdges)
+{
+  const TopoDS_Shape shape = BRepPrimAPI_MakeCylinder(5, 20).Shape();
+  const std::vector<TopoDS_Shape> faces = parts_of(shape, TopAbs_FACE);
+  const auto numbers_of_triangles = [&] {
+    std::vector<int> numbers;
+    for (const TopoDS_Shape& face : faces) {
+      TopLoc_Location place;
+      numbers.push_back(BRep_Tool::Triangulation(TopoDS::Face(face), place)->NbTriangles());
+    }
+    return numbers;
+  };
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = 0.05;
+  parameters.Angle = 0.25;
+  EXPECT_TRUE(triangulate_faces(shape, parameters).empty());
+  const std::vector<int> all_alike = numbers_of_triangles();
+  for (std::size_t finer = 0; finer < faces.size(); ++finer) {
+    std::vector<double> face_part(faces.size(), 1.0);
+    face_part[finer] = 0.1;
+    EXPECT_TRUE(triangulate_faces(shape, parameters, face_part).empty());
+    EXPECT_GT(numbers_of_triangles()[finer], 2 * all_alike[finer]);
+    for (const TopoDS_Shape& face : faces) {
+      EXPECT_TRUE(has_whole_triangles(TopoDS::Face(face)));
+    }
+  }
+}
 
 // The unit cube with an edge inside its top face that sticks out of it by next to nothing.
 TopoDS_Shape cube_with_stray_edge()

@@ -14,6 +14,7 @@
 #include "support/flat_model.hpp"
 #include "support/stl_models.hpp"
 
+#include "surface/editor.hpp"
 #include "surface/sizes/strip_sizes.hpp"
 
 namespace tessera::surface {
@@ -205,6 +206,25 @@ TEST(Remesh, PutsVerticesOfCurvesOnTheModel)
   EXPECT_GT(count, 0);
 }
 
+// Beside what was merged, an edge may lie beyond the reference, and all of it is nearest to one of
+// its ends. Each half of it must be shorter all the same.
+TEST(Remesh, AnEdgeBeyondTheReferenceIsHalved)
+{
+  const SurfaceReference reference(surface_of(testing::sphere_soup(3)));
+  PatchSurface start = reference.surface();
+  const Vec3 top = start.vertex_xyz[0];
+  start.vertex_xyz[0] = 3.0 * top;
+  const SizeFunction sizes(of_size(0.3));
+  SurfaceEditor editor(reference, start, sizes, nullptr, true);
+  const auto edges = editor.changed_edges(0);
+  const auto at_top = [](const auto& edge) { return edge[0] == 0; };
+  const PatchSurface::Edge edge = *std::ranges::find_if(edges, at_top);
+  const double length = editor.relative_length(edge);
+  const LocalIndex middle = editor.split(edge);
+  EXPECT_LE(editor.relative_length({edge[0], middle}), 0.9 * length);
+  EXPECT_LE(editor.relative_length({edge[1], middle}), 0.9 * length);
+}
+
 TEST(Remesh, GivesTheSameBitsAgain)
 {
   const SurfaceReference reference(surface_of(testing::sphere_soup(3)));
@@ -227,6 +247,27 @@ TEST(PatchSurfaceCheck, AcceptsSheetsWithOneDiagonalOnceTheyAreSeparated)
   EXPECT_NO_THROW(validate(pillow));
   EXPECT_EQ(pillow.vertex_xyz.size(), 5U) << "one sheet got a vertex of its own";
   EXPECT_EQ(pillow.triangles.size(), 6U);
+}
+
+// As above, but a sheet has a corner in two places of its parameters, as where two curves that
+// should meet are off each other.
+TEST(PatchSurfaceCheck, KeepsBothTrianglesOfASheetTogetherWhateverTheirParameters)
+{
+  PatchSurface pillow;
+  pillow.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  pillow.vertex_is_fixed = {1, 1, 1, 1};
+  pillow.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+  pillow.triangle_patch = {0, 0, 1, 1};
+  pillow.triangle_uv = {{{{0, 0}, {1, 0}, {1, 1}}},
+                        {{{0, 0}, {1, 1}, {0, 1}}},
+                        {{{0, 0}, {1, 1}, {1, 0}}},
+                        {{{0.1, 0}, {0, 1}, {1, 1}}}};
+  pillow.edges = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
+  pillow.edge_curve = {0, 1, 2, 3};
+  pillow.patch_materials = {{1, 0}, {1, 0}};
+  separate_patches(pillow);
+  EXPECT_NO_THROW(validate(pillow));
+  EXPECT_EQ(pillow.vertex_xyz.size(), 5U);
 }
 
 TEST(PatchSurfaceCheck, NamesTheEdgeOfAHole)
