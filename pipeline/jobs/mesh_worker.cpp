@@ -187,9 +187,7 @@ class MeshWorker final : public jobs::Worker {
       coarse::optimize_interior(made.mesh);
       if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
     }
-    made.distance.largest *= scale_;
-    made.distance.largest_within *= scale_;
-    made.distance.largest_merged *= scale_;
+    made.distance = made.distance.scaled(scale_);
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     netgen::name_curves(*netgen_model_, made.mesh);
     mesh::validate(made.mesh);

@@ -46,16 +46,7 @@ class Snapper {
         off = measure(v);
       }
       distance.largest = std::max(distance.largest, off.distance);
-      if (!off.is_beyond_tolerance) continue;
-      if (off.distance <= merged_.tolerance && is_merged(v)) {
-        ++distance.num_merged;
-        distance.largest_merged = std::max(distance.largest_merged, off.distance);
-      } else if (off.is_beyond_end && off.distance > kMostOfEdgeOff * shortest_edge(v)) {
-        ++distance.num_off;
-      } else {
-        ++distance.num_within;
-        distance.largest_within = std::max(distance.largest_within, off.distance);
-      }
+      if (off.is_beyond_tolerance) count(v, off, distance);
     }
     return distance;
   }
@@ -66,6 +57,22 @@ class Snapper {
     bool is_beyond_tolerance = false;  // That of the surface or curve.
     bool is_beyond_end = false;        // That of the CAD vertex at the end of a curve as well.
   };
+
+  void count(LocalIndex v, const Off& off, VertexDistance& distance) const
+  {
+    if (off.distance <= merged_.tolerance && is_merged(v)) {
+      ++distance.num_merged;
+      distance.largest_merged = std::max(distance.largest_merged, off.distance);
+    } else if (off.is_beyond_end && off.distance > kMostOfEdgeOff * shortest_edge(v)) {
+      ++distance.num_off;
+      if (off.distance <= distance.largest_off) return;
+      distance.largest_off = off.distance;
+      distance.farthest_off = mesh_.position(v);
+    } else {
+      ++distance.num_within;
+      distance.largest_within = std::max(distance.largest_within, off.distance);
+    }
+  }
 
   [[nodiscard]] bool is_merged(LocalIndex v) const
   {
@@ -194,6 +201,17 @@ class Snapper {
 };
 
 }  // namespace
+
+VertexDistance VertexDistance::scaled(double factor) const
+{
+  VertexDistance one = *this;
+  for (double* const length :
+       {&one.largest, &one.largest_off, &one.largest_within, &one.largest_merged}) {
+    *length *= factor;
+  }
+  one.farthest_off = factor * one.farthest_off;
+  return one;
+}
 
 VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model,
                              const surface::Defeatured& merged)

@@ -60,6 +60,7 @@ class PolygonTriangulator {
     for (const Loop& piece : pieces_of(std::move(ring))) {
       std::vector<Triangle> some = cut_ears(piece);
       if (some.size() + 2 < piece.size()) some = fill(piece);
+      if (some.empty()) return {};
       triangles.insert(triangles.end(), some.begin(), some.end());
     }
     return triangles;

@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include "tessera/base/vec3.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/surface/defeature.hpp"
@@ -11,8 +12,10 @@ namespace tessera::coarse {
 
 /// @brief How far the vertices of a coarse mesh are from the surfaces and curves they belong to.
 struct VertexDistance {
-  double largest = 0.0;    ///< Over all vertices on the geometry.
-  LocalIndex num_off = 0;  ///< Vertices farther off than what counts as within tolerance.
+  double largest = 0.0;      ///< Over all vertices on the geometry.
+  LocalIndex num_off = 0;    ///< Vertices farther off than what counts as within tolerance.
+  double largest_off = 0.0;  ///< Over these.
+  Vec3 farthest_off{};       ///< Where that one is.
   /// Vertices farther off than the tolerance of their surface or curve, but within that of a CAD
   /// vertex there, or by less than kMostOfEdgeOff of an edge.
   LocalIndex num_within = 0;
@@ -22,10 +25,13 @@ struct VertexDistance {
   LocalIndex num_merged = 0;
   double largest_merged = 0.0;  ///< Over these.
 
+  /// @brief The same of a mesh whose lengths are `factor` times as long.
+  [[nodiscard]] VertexDistance scaled(double factor) const;
+
   static auto fields(auto& self)
   {
-    return std::tie(self.largest, self.num_off, self.num_within, self.largest_within,
-                    self.num_merged, self.largest_merged);
+    return std::tie(self.largest, self.num_off, self.largest_off, self.farthest_off,
+                    self.num_within, self.largest_within, self.num_merged, self.largest_merged);
   }
 };
 

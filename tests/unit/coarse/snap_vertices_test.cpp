@@ -50,6 +50,10 @@ TEST_F(SnapVertices, CountsWhatCannotBePutThere)
   EXPECT_EQ(found.num_off, 1);
   EXPECT_NEAR(found.largest, 0.5 * 0.005, 1e-12) << "half of the half that is left";
   EXPECT_NEAR(norm(ball.position(v)), 1.005, 1e-12);
+  EXPECT_EQ(found.largest_off, found.largest);
+  EXPECT_EQ(found.farthest_off, ball.position(v));
+  EXPECT_EQ(found.scaled(10.0).farthest_off, 10.0 * ball.position(v));
+  EXPECT_EQ(found.scaled(10.0).largest_off, 10.0 * found.largest_off);
 }
 
 TEST_F(SnapVertices, CountsApartWhatWasMerged)

@@ -232,7 +232,7 @@ TEST(Remesh, GivesTheSameBitsAgain)
 }
 
 // Two triangles on each of two sheets that meet in a square; the sheets cut it by one diagonal.
-TEST(PatchSurfaceCheck, AcceptsSheetsWithOneDiagonalOnceTheyAreSeparated)
+PatchSurface pillow()
 {
   PatchSurface pillow;
   pillow.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -242,32 +242,33 @@ TEST(PatchSurfaceCheck, AcceptsSheetsWithOneDiagonalOnceTheyAreSeparated)
   pillow.edges = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
   pillow.edge_curve = {0, 1, 2, 3};
   pillow.patch_materials = {{1, 0}, {1, 0}};
-  EXPECT_THROW(validate(pillow), MeshError);
-  separate_patches(pillow);
-  EXPECT_NO_THROW(validate(pillow));
-  EXPECT_EQ(pillow.vertex_xyz.size(), 5U) << "one sheet got a vertex of its own";
-  EXPECT_EQ(pillow.triangles.size(), 6U);
+  return pillow;
 }
 
-// As above, but a sheet has a corner in two places of its parameters, as where two curves that
-// should meet are off each other.
+void expect_separated(PatchSurface sheets)
+{
+  EXPECT_THROW(validate(sheets), MeshError);
+  separate_patches(sheets);
+  EXPECT_NO_THROW(validate(sheets));
+  EXPECT_EQ(sheets.vertex_xyz.size(), 5U) << "one sheet got a vertex of its own";
+  EXPECT_EQ(sheets.triangles.size(), 6U);
+}
+
+TEST(PatchSurfaceCheck, AcceptsSheetsWithOneDiagonalOnceTheyAreSeparated)
+{
+  expect_separated(pillow());
+}
+
+// A sheet has a corner in two places of its parameters, as where two curves that should meet are
+// off each other.
 TEST(PatchSurfaceCheck, KeepsBothTrianglesOfASheetTogetherWhateverTheirParameters)
 {
-  PatchSurface pillow;
-  pillow.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  pillow.vertex_is_fixed = {1, 1, 1, 1};
-  pillow.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
-  pillow.triangle_patch = {0, 0, 1, 1};
-  pillow.triangle_uv = {{{{0, 0}, {1, 0}, {1, 1}}},
+  PatchSurface sheets = pillow();
+  sheets.triangle_uv = {{{{0, 0}, {1, 0}, {1, 1}}},
                         {{{0, 0}, {1, 1}, {0, 1}}},
                         {{{0, 0}, {1, 1}, {1, 0}}},
                         {{{0.1, 0}, {0, 1}, {1, 1}}}};
-  pillow.edges = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
-  pillow.edge_curve = {0, 1, 2, 3};
-  pillow.patch_materials = {{1, 0}, {1, 0}};
-  separate_patches(pillow);
-  EXPECT_NO_THROW(validate(pillow));
-  EXPECT_EQ(pillow.vertex_xyz.size(), 5U);
+  expect_separated(sheets);
 }
 
 TEST(PatchSurfaceCheck, NamesTheEdgeOfAHole)
