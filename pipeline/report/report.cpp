@@ -361,8 +361,7 @@ Verdict judge(const RunResult& run)
   if (const coarse::VertexDistance& off = run.coarse.distance; off.num_off > 0) {
     verdict.reasons.push_back(
         fmt::format("{} vertices of the coarse mesh could not be put on the geometry; the farthest "
-                    "is off it by "
-                    "{:.3g}, at ({:g})",
+                    "is off it by {:.3g}, at ({:g})",
                     off.num_off, off.largest_off, fmt::join(off.farthest_off, ", ")));
   }
   if (const auto substituted = substituted_subdomains(run); !substituted.empty()) {

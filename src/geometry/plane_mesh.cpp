@@ -148,6 +148,26 @@ class EdgeChanger {
 
 }  // namespace
 
+double signed_area(const std::vector<Point>& points, const PlaneMesh::Loop& loop)
+{
+  double area = 0.0;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    area += 0.5 * turn(points[at(loop[0])], points[at(loop[i])], points[at(loop[i + 1])]);
+  }
+  return area;
+}
+
+double length_around(const std::vector<Point>& points, const PlaneMesh::Loop& loop)
+{
+  double length = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Point& a = points[at(loop[i])];
+    const Point& b = points[at(loop[(i + 1) % loop.size()])];
+    length += std::hypot(b[0] - a[0], b[1] - a[1]);
+  }
+  return length;
+}
+
 void swap_to_delaunay(PlaneMesh& mesh) { EdgeChanger(mesh).swap_to_delaunay(); }
 
 void refine_inside(PlaneMesh& mesh, const std::function<bool(const Point&, const Point&)>& is_bad,

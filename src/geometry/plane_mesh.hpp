@@ -26,6 +26,13 @@ struct PlaneMesh {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+/// @brief The area inside of a loop: above 0 if it runs counter-clockwise.
+[[nodiscard]] double signed_area(const std::vector<PlaneMesh::Point>& points,
+                                 const PlaneMesh::Loop& loop);
+/// @brief The length of a loop, back to its first point.
+[[nodiscard]] double length_around(const std::vector<PlaneMesh::Point>& points,
+                                   const PlaneMesh::Loop& loop);
+
 /// @brief Swaps inner edges until they are Delaunay's. Local.
 void swap_to_delaunay(PlaneMesh& mesh);
 

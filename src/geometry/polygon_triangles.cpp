@@ -2,7 +2,6 @@
 #include "geometry/polygon_triangles.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -168,15 +167,7 @@ class PolygonTriangulator {
   // What is thinner than the tolerance may be inside out.
   [[nodiscard]] bool is_no_hole(const Loop& loop) const
   {
-    double area = 0.0;
-    double around = 0.0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Point& a = point(loop[i]);
-      const Point& b = point(loop[(i + 1) % loop.size()]);
-      area += 0.5 * turn(point(loop[0]), a, b);
-      around += std::sqrt(squared_distance(a, b));
-    }
-    return area >= -tolerance_ * around;
+    return signed_area(points_, loop) >= -tolerance_ * length_around(points_, loop);
   }
 
   // As many as can be had. A ring that crosses itself nowhere is all ears.
@@ -284,12 +275,7 @@ bool is_sound(const PlaneMesh& mesh, const std::vector<Loop>& loops)
 {
   constexpr double kMostFolded = 1e-3;  // Of the square of the length around.
   double around = 0.0;
-  for (const Loop& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      around += std::sqrt(
-          squared_distance(mesh.points[at(loop[i])], mesh.points[at(loop[(i + 1) % loop.size()])]));
-    }
-  }
+  for (const Loop& loop : loops) around += length_around(mesh.points, loop);
   double folded = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {
     folded += std::max(0.0, -turn(mesh.points[at(a)], mesh.points[at(b)], mesh.points[at(c)]));

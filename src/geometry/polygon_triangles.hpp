@@ -19,7 +19,7 @@ namespace tessera::geometry {
 /// tolerance.
 /// @param[in] tolerance Where loops touch, what is thinner than this lies between them, not in a
 /// hole.
-/// @return No triangles if they cross by more.
+/// @return No triangles if the loops cross by more than a little.
 [[nodiscard]] PlaneMesh triangulate_polygon(std::vector<PlaneMesh::Point> points,
                                             const std::vector<PlaneMesh::Loop>& loops,
                                             double tolerance = 0.0);

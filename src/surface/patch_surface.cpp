@@ -106,11 +106,10 @@ void separate_patches(PatchSurface& surface)
   if (is_left_out(Repair::separated_sheets)) return;
   const std::vector<Side> all = sides_of(surface);
   for_each_edge(all, [&surface](std::span<const Side> sides) {
-    // Two triangles of one patch belong together, also at a pole, where their parameters differ.
-    const bool is_one_sheet = sides.size() == 2 && sides[0].patch == sides[1].patch;
-    if (is_one_sheet || std::ranges::binary_search(surface.edges, sides[0].edge)) return;
+    if (std::ranges::binary_search(surface.edges, sides[0].edge)) return;
     for (std::size_t s = 1; s < sides.size(); ++s) {
       const LocalIndex patch = sides[s].patch;
+      // Two triangles of one patch belong together, also at a pole, where their parameters differ.
       const bool is_all = std::ranges::count(sides, patch, &Side::patch) == 2;
       if (sides[s] == sides[s - 1] || (is_all && patch == sides[s - 1].patch)) continue;
       split_sheet(surface, sides[s], is_all);

@@ -38,17 +38,6 @@ using Point = geometry::PlaneMesh::Point;
 constexpr std::size_t kMostPoints =
     20'000;  // Of a face of our own; more means that its parameters are odd.
 
-double signed_area(const std::vector<Point>& points, const geometry::PlaneMesh::Loop& loop)
-{
-  double area = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Point& a = points[at(loop[i])];
-    const Point& b = points[at(loop[(i + 1) % loop.size()])];
-    area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
-  }
-  return area;
-}
-
 class FaceTriangulator {
  public:
   FaceTriangulator(const TopoDS_Face& face, const Closeness& closeness)
@@ -115,11 +104,11 @@ class FaceTriangulator {
     std::vector<geometry::PlaneMesh::Loop>& loops = boundary_.loops;
     if (loops.empty()) return false;
     const auto size = [this](const geometry::PlaneMesh::Loop& loop) {
-      return std::abs(signed_area(boundary_.uv, loop));
+      return std::abs(geometry::signed_area(boundary_.uv, loop));
     };
     std::ranges::stable_sort(loops, std::ranges::greater{}, size);
     for (std::size_t h = 1; h < loops.size(); ++h) {
-      if (signed_area(boundary_.uv, loops[h]) > 0.0) std::ranges::reverse(loops[h]);
+      if (geometry::signed_area(boundary_.uv, loops[h]) > 0.0) std::ranges::reverse(loops[h]);
     }
     return true;
   }
