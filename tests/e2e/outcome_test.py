@@ -237,21 +237,22 @@ class CannotWrite(OutcomeTest):
         with contextlib.suppress(ProcessLookupError):  # A job that has ended.
             resource.prlimit(pid, resource.RLIMIT_FSIZE, (num_bytes, num_bytes))
 
-    def limit_files_below(self, rank):
-        """Each process before one looks what it has started: what it starts later inherits the limit."""
-        below = program.program_children(rank)
-        while below:
-            self.limit_files(below[0])
-            below = program.program_children(below[0])
+    def limit_files_below(self, pid):
+        """A process before what it has started: what it starts later inherits the limit."""
+        for child in program.children(pid):
+            self.limit_files(child)
+            self.limit_files_below(child)
 
-    def assert_reports_full_disk(self, ranks, limited_from, file, *arguments):
-        """`limited_from`: 0 the rank processes, 1 the processes that jobs come from."""
-        case = self.write_case(max_size=0.2, levels=2)  # Some seconds, of which one is to be met.
-        process = self.start("mesh", case, "--output", "out", *arguments, ranks=ranks)
-        begun = ["pieces/plan.record", "log/run.log"][limited_from]
-        program.wait_until((self.folder / "out" / begun).exists, begun)
+    def assert_reports_full_disk(self, ranks, limit, file, *arguments):
+        """`limit`: of a rank process, or of those that its jobs come from. It is set while the fills are held."""
+        case = self.write_case(max_size=0.2, levels=2)
+        self.write("hold", "")
+        env = os.environ | {"TESSERA_TEST_FAULT": "fill=hold"}
+        process = self.start("mesh", case, "--output", "out", *arguments, ranks=ranks, env=env)
+        program.wait_until((self.folder / "out" / "pieces" / "plan.record").exists, "the plan")
         for rank in [process.pid] if ranks is None else program.ranks_of(process):
-            [self.limit_files, self.limit_files_below][limited_from](rank)
+            limit(rank)
+        (self.folder / "hold").unlink()
         self.assert_refused(self.finish(process), CANNOT_WRITE, f"cannot write out/{file}", "File too large")
         self.assertFalse((self.folder / "out" / "mesh.pvtu").exists())
         # A job of another rank, cancelled while it was writing, leaves its file to --resume.
@@ -262,19 +263,19 @@ class CannotWrite(OutcomeTest):
         for ranks in RANKS:
             with self.subTest(ranks=ranks):
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
-                self.assert_reports_full_disk(ranks, 1, "pieces/piece_")
+                self.assert_reports_full_disk(ranks, self.limit_files_below, "pieces/piece_")
 
     def test_disk_full_when_seams_are_improved(self):
         for ranks in RANKS:
             with self.subTest(ranks=ranks):
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
-                self.assert_reports_full_disk(ranks, 0, "pieces/log_")
+                self.assert_reports_full_disk(ranks, self.limit_files, "pieces/log_")
 
     def test_disk_full_when_the_mesh_is_written(self):
         for ranks in RANKS:
             with self.subTest(ranks=ranks):
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
-                self.assert_reports_full_disk(ranks, 0, "mesh/piece_", "--set", "improve.seams=false")
+                self.assert_reports_full_disk(ranks, self.limit_files, "mesh/piece_", "--set", "improve.seams=false")
 
 
 class WrongMesh(OutcomeTest):

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -20,8 +21,9 @@ namespace {
 constexpr std::array<std::string_view, 18> kStages{
     "import", "load", "box",  "describe", "coarse", "remesh", "gmsh",  "domain", "layers",
     "rims",   "plan", "fill", "improve",  "refine", "skin",   "share", "map",    "join"};
-constexpr std::array<std::string_view, 10> kKinds{"throw",  "segv",    "exit", "loop",  "sleep",
-                                                  "memory", "garbage", "drop", "nudge", "lose"};
+constexpr std::array<std::string_view, 11> kKinds{
+    "throw", "segv", "exit", "loop", "sleep", "hold", "memory", "garbage", "drop", "nudge", "lose"};
+constexpr const char* kHoldFile = "hold";
 
 struct Fault {
   std::string stage{};
@@ -57,6 +59,12 @@ std::vector<Fault> asked_faults()
 {
   volatile unsigned counter = 0;
   for (;;) counter = counter + 1;
+}
+
+void wait_for_end_of_hold()
+{
+  while (std::filesystem::exists(kHoldFile))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 [[noreturn]] void take_all_memory()
@@ -106,6 +114,7 @@ void fail_if_asked(std::string_view stage, LocalIndex item)
   if (kind == "exit") std::exit(1);
   if (kind == "loop") loop_for_ever();
   if (kind == "sleep") std::this_thread::sleep_for(std::chrono::hours(24));
+  if (kind == "hold") wait_for_end_of_hold();
   if (kind == "memory") take_all_memory();
 }
 

@@ -16,7 +16,8 @@
 ///   triangles), gmsh (that of Gmsh), domain (the tets in one of its domains), layers, rims, plan,
 ///   fill, improve, refine, skin; share (memory of the node: in the rank itself), map (the same: in
 ///   its worker); join (the workers of the node: in the rank itself).
-/// - KIND, for any job: throw, segv, exit, loop, sleep, memory.
+/// - KIND, for any job: throw, segv, exit, loop, sleep, memory; hold (the job goes on when the file
+///   "hold" in the folder of the run is gone, so a test can meet it at this place).
 /// - KIND, for results that a check must refuse: drop (a tet of the result is lost: coarse, remesh,
 ///   fill, improve), garbage (the bytes of the result are no longer what they were).
 /// - KIND, for results that pass all checks of a job: nudge (fill: points on the geometry are one
@@ -35,7 +36,7 @@ void obey_test_environment(jobs::JobRunner& jobs);
 /// @brief The kind that is asked for at this place; empty if there is none. No stage: no place.
 [[nodiscard]] std::string kind_at(std::string_view stage, LocalIndex item);
 
-/// @brief Throws, dies or never returns if that is asked for at this place.
+/// @brief Throws, dies, waits or never returns if that is asked for at this place.
 void fail_if_asked(std::string_view stage, LocalIndex item);
 
 /// @brief The result itself, or garbage if that is asked for at this place.
