@@ -60,7 +60,7 @@ class Snapper {
 
   void count(LocalIndex v, const Off& off, VertexDistance& distance) const
   {
-    if (off.distance <= merged_.tolerance && is_merged(v)) {
+    if (off.distance <= merged_.tolerance && is_beside_merged(v)) {
       ++distance.num_merged;
       distance.largest_merged = std::max(distance.largest_merged, off.distance);
     } else if (off.is_beyond_end && off.distance > kMostOfEdgeOff * shortest_edge(v)) {
@@ -72,6 +72,15 @@ class Snapper {
       ++distance.num_within;
       distance.largest_within = std::max(distance.largest_within, off.distance);
     }
+  }
+
+  // What is merged lies off the geometry, and edges lead from it back there.
+  [[nodiscard]] bool is_beside_merged(LocalIndex v) const
+  {
+    return std::ranges::any_of(corners_[at(v)], [&](std::size_t corner) {
+      const LocalIndex* of_face = &mesh_.face_vertices[corner - corner % 3];
+      return std::any_of(of_face, of_face + 3, [&](LocalIndex one) { return is_merged(one); });
+    });
   }
 
   [[nodiscard]] bool is_merged(LocalIndex v) const

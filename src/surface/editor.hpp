@@ -142,7 +142,9 @@ class SurfaceEditor {
   [[nodiscard]] std::vector<PlacedTriangle> halves(std::span<const LocalIndex> triangles,
                                                    const Edge& edge, const Vec3& middle) const;
   [[nodiscard]] double off_curve(LocalIndex curve, const Vec3& point) const;
+  [[nodiscard]] double bow(LocalIndex curve, const Vec3& a, const Vec3& b) const;
   [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const;
+  [[nodiscard]] bool keeps_curve(LocalIndex v, const Vec3& before, const Vec3& after) const;
   [[nodiscard]] bool keeps_lengths(LocalIndex gone, LocalIndex kept) const;
   void note_change(std::span<const LocalIndex> triangles);
   void touch(std::span<const LocalIndex> triangles);

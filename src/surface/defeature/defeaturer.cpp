@@ -137,9 +137,8 @@ std::vector<Defeaturer::Cap> Defeaturer::find_caps() const
       const Vec3& point = surface_.xyz(v);
       const double off_chord = norm(wing(surface_.xyz(edge[0]), surface_.xyz(edge[1]), point));
       if (off_chord > tolerance_ + kMostBow * length(edge)) continue;
-      const Vec3 found = on_curve_(curve, edge[0], point);
-      const double distance = norm(found - point);
-      if (distance <= small_at(v)) caps.push_back({distance, edge, v, found});
+      const double distance = norm(on_curve_(curve, edge[0], point) - point);
+      if (distance <= small_at(v)) caps.push_back({distance, edge, v});
     }
   }
   std::ranges::sort(caps, {},
@@ -155,14 +154,15 @@ bool Defeaturer::put_into_edge(const Cap& cap)
   const auto t = std::ranges::find_if(
       at_edge, [&](LocalIndex one) { return opposite(one, cap.edge) == cap.v; });
   if (t == at_edge.end() || !may_vanish(*t, cap.edge) || is_tied(cap.edge, *t)) return false;
-  const Vec3 point = moves_onto(cap.v, curve) ? cap.on_curve : surface_.xyz(cap.v);
-  // The vertex may have gone to another curve since the cap was found.
-  if (norm(point - cap.on_curve) > tolerance_) return false;
+  // Since the cap was found, the vertex or the edge may have become one of another curve.
+  const Vec3 on_curve = on_curve_(curve, cap.edge[0], surface_.xyz(cap.v));
+  const Vec3 point = moves_onto(cap.v, curve) ? on_curve : surface_.xyz(cap.v);
+  if (norm(point - on_curve) > tolerance_) return false;
   if (!is_between(cap.edge, point) || !may_go(cap.v, point)) return false;
   const Step step = step_into(cap.edge, *t, point);
   if (!is_sound(step)) return false;
   note({.gone = cap.v, .kept = cap.v, .curve_end = cap.edge[0]});
-  origins_[cap.v].push_back(cap.on_curve);  // That point of the curve goes where the vertex goes.
+  origins_[cap.v].push_back(on_curve);  // That point of the curve goes where the vertex goes.
   split(cap.edge, cap.v, point);
   update_guard(step.old);
   return true;

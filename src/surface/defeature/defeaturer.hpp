@@ -68,7 +68,6 @@ class Defeaturer {
     double distance = 0.0;
     Edge edge{};
     LocalIndex v = kNoIndex;
-    Vec3 on_curve{};
   };
 
   int collapse_short_edges();

@@ -64,6 +64,22 @@ PatchSurface cube()
   return surface;
 }
 
+// A square pyramid whose base has a centre. Two sides of the base are one curve that bends by a
+// right angle at vertex 2; the other two are another one. Vertices 1 and 3 are where they end.
+PatchSurface pyramid_with_a_bend()
+{
+  PatchSurface surface;
+  surface.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}, {0.5, 0.5, -5}};
+  surface.vertex_is_fixed = {0, 1, 0, 1, 0, 0};
+  surface.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                       {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  surface.triangle_patch = {0, 0, 0, 0, 1, 1, 1, 1};
+  surface.patch_materials = {{1, 0}, {1, 0}};
+  surface.edges = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
+  surface.edge_curve = {0, 0, 1, 1};
+  return surface;
+}
+
 double volume_of(const PatchSurface& surface)
 {
   double volume = 0.0;
@@ -204,6 +220,16 @@ TEST(Remesh, PutsVerticesOfCurvesOnTheModel)
     }
   }
   EXPECT_GT(count, 0);
+}
+
+TEST(Remesh, AVertexThatMovesAlongACurveStaysAtItsBend)
+{
+  const SurfaceReference reference(pyramid_with_a_bend());
+  const SizeFunction sizes(of_size(1.0));
+  SurfaceEditor editor(reference, reference.surface(), sizes, nullptr, true);
+  constexpr double kAnyShape = -0.5;
+  EXPECT_FALSE(editor.move(2, {1, 0.2, 0}, kAnyShape)) << "the edge 2-3 would cut the corner";
+  EXPECT_TRUE(editor.move(2, {1, 0.7, 0}, kAnyShape));
 }
 
 // Beside what was merged, an edge may lie beyond the reference, and all of it is nearest to one of
