@@ -11,18 +11,19 @@ namespace tessera::surface {
 namespace {
 
 // Where the edge, whose ends seem to be on different sides of the triangle's plane, goes through
-// its inside. Exact: triangles of one plane, as that of a side that was turned, are off it by
-// rounding.
+// it; also at its rim, as no tets fit between two edges that meet. Exact: triangles of one plane,
+// as that of a side that was turned, are off it by rounding.
 std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, double above, double below,
                              const std::array<Vec3, 3>& triangle)
 {
-  const auto& [a, b, c] = triangle;
-  const int side = delaunay::orient3d(from, to, a, b);
-  if (side == 0 || delaunay::orient3d(from, to, b, c) != side
-      || delaunay::orient3d(from, to, c, a) != side
-      || delaunay::orient3d(a, b, c, from) * delaunay::orient3d(a, b, c, to) >= 0) {
-    return std::nullopt;
+  int side = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int of_edge = delaunay::orient3d(from, to, triangle[i], triangle[(i + 1) % 3]);
+    if (of_edge * side < 0) return std::nullopt;
+    if (of_edge != 0) side = of_edge;
   }
+  const auto& [a, b, c] = triangle;
+  if (delaunay::orient3d(a, b, c, from) * delaunay::orient3d(a, b, c, to) >= 0) return std::nullopt;
   return from + (above / (above - below)) * (to - from);
 }
 

@@ -21,8 +21,8 @@ struct PlacedTriangle {
   LocalIndex patch = kNoIndex;
 };
 
-/// @brief Where an edge of one triangle goes through the inside of the other; nothing if none does,
-/// or if they share an edge. Local.
+/// @brief Where an edge of one triangle goes through the other, its rim included; nothing if none
+/// does, or if they share an edge. Local.
 [[nodiscard]] std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b);
 
 /// @brief The triangles of a surface as it changes, to tell which changes would make it cut itself.

@@ -17,9 +17,10 @@ struct Overlap {
 
 /// @brief Where a surface cuts itself, as where its triangles are longer than a gap is wide. Local.
 ///
-/// Gives the pairs of triangles, ascending, of which an edge of one goes through the other.
-/// Triangles that share an edge, only touch, or lie in one plane are no such pair. O(n log n) for a
-/// surface whose triangles are much smaller than it.
+/// Gives the pairs of triangles, ascending, of which an edge of one goes through the other, or
+/// through an edge or a corner of it. Triangles that share an edge, lie in one plane, or touch with
+/// a corner inside of the other only are no such pair. O(n log n) for a surface whose triangles are
+/// much smaller than it.
 [[nodiscard]] std::vector<Overlap> find_overlaps(const PatchSurface& surface);
 
 /// @brief Where a surface must not cut itself. Each body is filled by itself, so that bodies may

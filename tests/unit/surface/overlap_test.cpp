@@ -40,6 +40,26 @@ TEST(SurfaceOverlap, IsFoundWithItsPlaceWhereBodiesCutEachOther)
   }
 }
 
+// Two triangles whose planes are upright to each other; a corner of the second one.
+PatchSurface upright_triangles(const Vec3& corner)
+{
+  PatchSurface surface;
+  surface.vertex_xyz = {{0, 0, 0}, {1, 0, 0},           {0.5, -1, 0},
+                        corner,    {0.5, corner[1], 1}, {0.5, corner[1] + 1, 1}};
+  surface.vertex_is_fixed.assign(6, 0);
+  surface.triangles = {{0, 1, 2}, {3, 4, 5}};
+  surface.triangle_patch = {0, 0};
+  surface.patch_materials = {{1, 0}};
+  return surface;
+}
+
+TEST(SurfaceOverlap, IsFoundWhereTwoEdgesMeetAndNotWhereACornerTouchesATriangle)
+{
+  EXPECT_EQ(find_overlaps(upright_triangles({0.5, 0, -1})).size(), 1U) << "edges meet";
+  EXPECT_EQ(find_overlaps(upright_triangles({0.5, 0, 0})).size(), 1U) << "a corner is in an edge";
+  EXPECT_TRUE(find_overlaps(upright_triangles({0.5, -0.3, 0})).empty());
+}
+
 TEST(SurfaceOverlap, OfTwoBodiesIsNoneWithinOne)
 {
   PatchSurface surface = two_cubes({0.6, 0.7, 0.8});
