@@ -2,6 +2,7 @@
 #include "surface/crossings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "tessera/delaunay/predicates.hpp"
 
@@ -91,9 +92,17 @@ std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b)
   return crossing(a, normal_of(a.corners), b, normal_of(b.corners));
 }
 
-CrossingGuard::CrossingGuard(const PatchSurface& surface)
-    : triangles_(placed(surface)), tree_(boxes_of(triangles_))
+CrossingGuard::CrossingGuard(const PatchSurface& surface, std::vector<Box> guarded)
+    : triangles_(placed(surface)), tree_(boxes_of(triangles_)), guarded_(std::move(guarded))
 {
+}
+
+bool CrossingGuard::is_at(const Box& box) const
+{
+  bool is_found = false;
+  guarded_.visit([&](const Box& other) { return !is_found && other.touches(box); },
+                 [&](LocalIndex /*item*/) { is_found = true; });
+  return is_found;
 }
 
 void CrossingGuard::find_near(const Box& box, std::span<const LocalIndex> without)
@@ -129,6 +138,7 @@ bool CrossingGuard::allows(std::span<const LocalIndex> old, std::span<const Plac
 {
   Box around;
   for (const PlacedTriangle& one : made) around.include(box_of(one.corners));
+  if (!is_at(around)) return true;
   find_near(around, old);
   const int after = count_near(made);
   if (after == 0) return true;

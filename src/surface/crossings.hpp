@@ -25,14 +25,22 @@ struct PlacedTriangle {
 /// does, or if they share an edge. Local.
 [[nodiscard]] std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b);
 
+/// @brief A box that holds every point.
+inline constexpr Box kEverywhere{-1.0 * kNoPoint, kNoPoint};
+
 /// @brief The triangles of a surface as it changes, to tell which changes would make it cut itself.
 /// Local.
 class CrossingGuard {
  public:
-  explicit CrossingGuard(const PatchSurface& surface);
+  /// @param[in] guarded Where changes are looked at.
+  explicit CrossingGuard(const PatchSurface& surface, std::vector<Box> guarded = {kEverywhere});
+
+  /// @brief Whether changes are looked at that reach a box.
+  [[nodiscard]] bool is_at(const Box& box) const;
 
   /// @brief Whether `made` in the place of `old` cut other triangles and each other at no more
-  /// pairs than those do. So a surface that cuts itself already may still change there.
+  /// pairs than those do, or are where nothing is guarded. So a surface that cuts itself already
+  /// may still change there.
   [[nodiscard]] bool allows(std::span<const LocalIndex> old, std::span<const PlacedTriangle> made);
 
   /// @brief Triangle `t` is another one now.
@@ -58,6 +66,7 @@ class CrossingGuard {
 
   std::vector<PlacedTriangle> triangles_{};
   BoxTree tree_;
+  BoxTree guarded_;
   std::vector<Near> near_{};  // Of one question; kept for its memory.
 };
 

@@ -58,7 +58,8 @@ double angle_shape(const std::array<Vec3, 3>& p) noexcept
 }
 
 SurfaceEditor::SurfaceEditor(const SurfaceReference& reference, const PatchSurface& start,
-                             const SizeFunction& sizes, const model::Model* model, bool may_cut)
+                             const SizeFunction& sizes, const model::Model* model,
+                             std::vector<Box> guarded)
     : reference_(reference),
       surface_(start, std::vector<double>(start.vertex_xyz.size(), 0.0)),
       sizes_(sizes),
@@ -68,7 +69,7 @@ SurfaceEditor::SurfaceEditor(const SurfaceReference& reference, const PatchSurfa
       shapes_(start.triangles.size(), kUnknown),
       normals_(start.vertex_xyz.size())
 {
-  if (!may_cut) guard_.emplace(start);
+  if (!guarded.empty()) guard_.emplace(start, std::move(guarded));
   for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) {
     surface_.set_size(v, sizes_(surface_.xyz(v)));
   }
@@ -77,6 +78,14 @@ SurfaceEditor::SurfaceEditor(const SurfaceReference& reference, const PatchSurfa
 std::vector<Edge> SurfaceEditor::changed_edges(int pass) const
 {
   return surface_.edges([&](LocalIndex v) { return has_changed(v, pass); });
+}
+
+bool SurfaceEditor::is_guarded(LocalIndex v) const
+{
+  if (!guard_) return false;
+  Box around;
+  for (const LocalIndex t : surface_.triangles_of(v)) around.include(box_of(surface_.corners(t)));
+  return guard_->is_at(around);
 }
 
 double SurfaceEditor::relative_length(const Edge& edge) const

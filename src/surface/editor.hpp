@@ -42,9 +42,10 @@ class SurfaceEditor {
   /// @param[in] sizes  Wanted edge lengths; must live on.
   /// @param[in] model  If given, vertices on curves lie on its curves, not on the reference's:
   /// there the chords of the reference may be off by more than a strip beside them is wide.
-  /// @param[in] may_cut  Whether steps may make triangles cut others: then they are quicker.
+  /// @param[in] guarded  Where no step may make triangles cut others. Elsewhere they are quicker,
+  /// and most of all without any such place.
   SurfaceEditor(const SurfaceReference& reference, const PatchSurface& start,
-                const SizeFunction& sizes, const model::Model* model, bool may_cut);
+                const SizeFunction& sizes, const model::Model* model, std::vector<Box> guarded);
 
   [[nodiscard]] const EditableSurface& surface() const { return surface_; }
   [[nodiscard]] const SurfaceReference& reference() const { return reference_; }
@@ -58,10 +59,10 @@ class SurfaceEditor {
   /// @brief How many changes there have been.
   [[nodiscard]] int num_changes() const { return num_changes_; }
   /// @brief Whether a step at the vertex would come to what it came to when there had been so many
-  /// changes: those since then were elsewhere. If steps must not cut, it is unknown.
+  /// changes: those since then were elsewhere. Where steps are guarded, it is unknown.
   [[nodiscard]] bool is_as_it_was(LocalIndex v, int num_changes) const
   {
-    return !guard_ && touched_[at(v)] <= num_changes;
+    return touched_[at(v)] <= num_changes && !is_guarded(v);
   }
   /// @brief Edges both of whose ends have changed in this pass or later, ascending.
   [[nodiscard]] std::vector<Edge> changed_edges(int pass) const;
@@ -126,6 +127,7 @@ class SurfaceEditor {
     [[nodiscard]] bool came_at(const Vec3& place) const { return came_last && came.place == place; }
   };
 
+  [[nodiscard]] bool is_guarded(LocalIndex v) const;
   [[nodiscard]] PlacedTriangle placed(const Triangle& v, LocalIndex patch) const;
   [[nodiscard]] Candidates ring_of(LocalIndex v) const;
   [[nodiscard]] bool all_better(std::span<const PlacedTriangle> candidates, double least);

@@ -66,8 +66,8 @@ constexpr double kSettledOnCurve = 0.05;
 class Remesher {
  public:
   Remesher(const SurfaceReference& reference, const PatchSurface& start, const SizeFunction& sizes,
-           const model::Model* model, bool may_cut)
-      : editor_(reference, start, sizes, model, may_cut), surface_(editor_.surface())
+           const model::Model* model, std::vector<Box> guarded)
+      : editor_(reference, start, sizes, model, std::move(guarded)), surface_(editor_.surface())
   {
   }
 
@@ -275,6 +275,18 @@ std::vector<SizeSource> sizes_of_model(const PatchSurface& surface)
   return sources;
 }
 
+// Where steps can have made these cuts.
+std::vector<Box> around(const std::vector<Overlap>& cuts, const PatchSurface& surface)
+{
+  std::vector<Box> boxes;
+  for (const Overlap& cut : cuts) {
+    Box box = box_of(surface.corners(cut.first));
+    box.include(box_of(surface.corners(cut.second)));
+    boxes.push_back(box.widened(box.diagonal()));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOptions& options)
@@ -282,7 +294,7 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
   const PatchSurface& start = reference.surface();
   SizeFunction sizes(options);
   sizes.limit(bent_places_of(start, for_bends_of_triangles(start, options)));
-  Remesher remesher(reference, start, sizes, nullptr, true);
+  Remesher remesher(reference, start, sizes, nullptr, {});
   const EditableSurface& surface = remesher.with_short_edges();
   std::vector<SizeSource> sources = narrow_strips_of(surface, options);
   if (!is_left_out(Repair::wall_sizes)) {
@@ -299,10 +311,21 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
 Remeshed remesh(const SurfaceReference& reference, const PatchSurface& start,
                 const SizeFunction& sizes, const model::Model* model, const PeriodicRims* rims)
 {
-  // Most surfaces do not come to cut themselves, and guarding steps takes as long as all else.
-  PatchSurface surface = Remesher(reference, start, sizes, model, true).run(rims);
-  if (find_overlaps(surface).empty()) return {std::move(surface), true};
-  return {Remesher(reference, start, sizes, model, false).run(rims), false};
+  const auto with_guard = [&](const std::vector<Box>& guarded) {
+    return Remesher(reference, start, sizes, model, guarded).run(rims);
+  };
+  PatchSurface surface = with_guard({});
+  const std::vector<Overlap> cuts = find_overlaps(surface);
+  if (cuts.empty()) return {std::move(surface), true};
+  const std::vector<Box> guarded = around(cuts, surface);
+  surface = with_guard(guarded);
+  const std::vector<Overlap> left = find_overlaps(surface);
+  if (left.empty()) return {std::move(surface), true};
+  const bool are_guarded = std::ranges::all_of(left, [&](const Overlap& cut) {
+    return std::ranges::any_of(guarded, [&](const Box& box) { return box.holds(cut.place); });
+  });
+  if (are_guarded) return {std::move(surface), false};
+  return {with_guard({kEverywhere}), false};
 }
 
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)

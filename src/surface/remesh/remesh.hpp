@@ -25,8 +25,9 @@ struct Remeshed {
 /// A mesher that advances a front has to find a closed surface; this one starts with it. It takes
 /// no step that would turn a triangle over, or make one worse than it has to be. So it ends with a
 /// closed surface for any reference, but not always with good triangles. Whether a step makes
-/// sheets cut each other is asked only if some do in the end: then all is done once more with every
-/// step guarded, which takes twice as long. The same arguments give the same bits.
+/// sheets cut each other is asked only if some do in the end: then all is done once more with steps
+/// guarded where they do. If others cut each other then, every step is guarded, which takes twice
+/// as long. The same arguments give the same bits.
 ///
 /// Own code, because Debian 12 has no Mmg and CGAL's remesher is GPL.
 /// @param[in] start  Where it begins: the reference's surface, or another one that has its patches

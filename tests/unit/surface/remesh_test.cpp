@@ -226,7 +226,7 @@ TEST(Remesh, AVertexThatMovesAlongACurveStaysAtItsBend)
 {
   const SurfaceReference reference(pyramid_with_a_bend());
   const SizeFunction sizes(of_size(1.0));
-  SurfaceEditor editor(reference, reference.surface(), sizes, nullptr, true);
+  SurfaceEditor editor(reference, reference.surface(), sizes, nullptr, {});
   constexpr double kAnyShape = -0.5;
   EXPECT_FALSE(editor.move(2, {1, 0.2, 0}, kAnyShape)) << "the edge 2-3 would cut the corner";
   EXPECT_TRUE(editor.move(2, {1, 0.7, 0}, kAnyShape));
@@ -241,7 +241,7 @@ TEST(Remesh, AnEdgeBeyondTheReferenceIsHalved)
   const Vec3 top = start.vertex_xyz[0];
   start.vertex_xyz[0] = 3.0 * top;
   const SizeFunction sizes(of_size(0.3));
-  SurfaceEditor editor(reference, start, sizes, nullptr, true);
+  SurfaceEditor editor(reference, start, sizes, nullptr, {});
   const auto edges = editor.changed_edges(0);
   const auto at_top = [](const auto& edge) { return edge[0] == 0; };
   const PatchSurface::Edge edge = *std::ranges::find_if(edges, at_top);
