@@ -22,6 +22,7 @@ std::vector<CoarseTriangle> coarse_boundary(const subdomain::PartitionedMesh& cu
   std::vector<CoarseTriangle> triangles;
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
     const LocalIndex* const sides = &skeleton.triangle_subdomains[2 * at(t)];
+    if (cut.coarse.is_wake(skeleton.triangle_patch[at(t)])) continue;
     const bool is_between = is_there(sides[0]) && is_there(sides[1]);
     if (is_between ? skeleton.triangle_patch[at(t)] == kNoIndex
                    : !is_there(sides[0]) && !is_there(sides[1])) {

@@ -18,6 +18,7 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
+#include "tessera/layers/find_wakes.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/model/stl_file.hpp"
@@ -197,6 +198,8 @@ class MeshWorker final : public jobs::Worker {
   [[nodiscard]] Bytes answer(const LayerRequest& request) const
   {
     LayeredMesh made{.mesh = request.mesh};
+    topology::open_wakes(made.mesh,
+                         layers::find_wakes(made.mesh, request.layers, request.keep_tets));
     made.cover = layers::grow_layers(made.mesh, request.layers, *scaled_model_, request.keep_tets);
     topology::close_joints(made.mesh);
     return to_bytes(made);

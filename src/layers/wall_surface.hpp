@@ -55,6 +55,17 @@ struct PatchLayers {
   LocalIndex stack = 0;    ///< Row of mesh::WallLayers::ends.
 };
 
+/// @brief A leaning column is longer, so that the layers keep their height; but no more than that.
+inline constexpr double kMostLean = 2.5;
+
+/// @brief Whether two triangles of walls meet at a *ridge*: an edge as that behind a wing, which is
+/// too sharp for one column between them. Local.
+/// @param[in] first, second Their normals. @param[in] away From the edge into the second one.
+[[nodiscard]] bool is_ridge(const Vec3& first, const Vec3& second, const Vec3& away);
+
+/// @brief The direction whose smallest cosine to the normals is largest. Local.
+[[nodiscard]] Vec3 best_direction(std::span<const Vec3> normals);
+
 /// @brief Finds walls and the columns on them. Local.
 ///
 /// Where patches with layers meet, columns are those of the thinnest ones. Columns on periodic

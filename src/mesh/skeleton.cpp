@@ -240,20 +240,38 @@ void set_edge_curves(const CoarseMesh& coarse, const std::vector<Edge>& edges, S
   }
 }
 
-// Canonical records: curves come before patches, and walls before patches without layers.
+// Canonical records: curves come before patches, and walls before patches without layers. Wakes lie
+// on no geometry, so they give none.
 void set_edge_records(const CoarseMesh& coarse, const std::vector<Edge>& edges, Skeleton& out)
 {
   out.edge_curve.assign(edges.size(), kNoIndex);
   out.edge_patch.assign(edges.size(), kNoIndex);
   out.edge_parameters.assign(4 * edges.size(), 0.0);
+  const auto is_any = [&](LocalIndex t) { return !coarse.is_wake(out.triangle_patch[at(t)]); };
   const auto is_wall = [&](LocalIndex t) {
-    return coarse.layers.is_wall(out.triangle_patch[at(t)]);
+    return coarse.layers.is_wall(out.triangle_patch[at(t)]) && is_any(t);
   };
-  const auto is_any = [](LocalIndex /*t*/) { return true; };
   set_edge_patches(out, is_wall, out.edge_patch, out.edge_parameters);
   set_edge_patches(out, is_any, out.edge_patch, out.edge_parameters);
   set_edge_curves(coarse, edges, out);
   set_edge_walls(coarse.layers, out);
+}
+
+// Edges at one place on the two sides of a wake may have other triangles beside them, and are still
+// refined alike.
+void share_records_of_wakes(const CoarseMesh& coarse, Skeleton& out)
+{
+  for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
+    if (!coarse.is_wake(out.triangle_patch[at(t)])) continue;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const LocalIndex edge = out.triangle_edges[3 * at(t) + side];
+      const LocalIndex base = out.orbits.edges.base_of(edge);
+      if (base == edge) continue;
+      out.edge_curve[at(edge)] = LocalIndex{out.edge_curve[at(base)]};
+      out.edge_patch[at(edge)] = LocalIndex{out.edge_patch[at(base)]};
+      std::copy_n(&out.edge_parameters[4 * at(base)], 4, &out.edge_parameters[4 * at(edge)]);
+    }
+  }
 }
 
 }  // namespace
@@ -283,6 +301,7 @@ Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposi
   skeleton.subdomain_triangles =
       rows_by_key(skeleton.triangle_subdomains, decomposition.num_subdomains(), 2);
   skeleton.orbits = find_orbits(skeleton, coarse, triangle_face);
+  share_records_of_wakes(coarse, skeleton);
   return skeleton;
 }
 

@@ -338,10 +338,13 @@ class LatticeRefiner {
                   triangle_uv_[result_.triangle_place(t, b)]);
   }
 
+  // kNoIndex: it lies on no geometry.
   [[nodiscard]] LocalIndex patch_of(LocalIndex t) const
   {
     const LocalIndex triangle = triangle_origin(t);
-    return triangle == kNoIndex ? kNoIndex : context_.skeleton.triangle_patch[at(triangle)];
+    if (triangle == kNoIndex) return kNoIndex;
+    const LocalIndex patch = context_.skeleton.triangle_patch[at(triangle)];
+    return context_.coarse.is_wake(patch) ? kNoIndex : patch;
   }
 
   [[nodiscard]] LocalIndex surface_of(LocalIndex patch) const

@@ -28,6 +28,7 @@ std::vector<Side> sorted_sides(const mesh::CoarseMesh& coarse)
   std::vector<Side> sides;
   sides.reserve(3 * at(coarse.num_faces()));
   for (LocalIndex f = 0; f < coarse.num_faces(); ++f) {
+    if (coarse.is_wake(coarse.face_patch[at(f)])) continue;
     const LocalIndex* v = &coarse.face_vertices[3 * at(f)];
     for (std::size_t c = 0; c < 3; ++c) {
       const auto [low, high] = std::minmax(v[(c + 1) % 3], v[(c + 2) % 3]);

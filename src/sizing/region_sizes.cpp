@@ -75,7 +75,8 @@ RegionSizes::Where RegionSizes::find(const PatchPattern& patch, const mesh::Coar
   const std::vector<bool> matches = matching_names("patch", patch.pattern, coarse.patch_names);
   Selected<3> selected;
   for (LocalIndex f = 0; f < coarse.num_faces(); ++f) {
-    if (!matches[at(coarse.face_patch[at(f)])]) continue;
+    const LocalIndex patch_of_face = coarse.face_patch[at(f)];
+    if (!matches[at(patch_of_face)] || coarse.is_wake(patch_of_face)) continue;
     selected.add(coarse, std::span(coarse.face_vertices).subspan(3 * at(f), 3));
   }
   if (selected.parts.empty()) {

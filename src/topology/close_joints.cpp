@@ -74,17 +74,25 @@ class Closer {
     return &mesh_.face_vertices[3 * at(face)];
   }
 
-  // Of what is closed all over, one face stays. It is no wall.
+  // Of what is closed all over, one face stays, which is no wall. Of a wake none does.
   void drop_faces()
   {
+    std::vector<char> is_dropped(at(mesh_.num_faces()), 0);
+    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
+      if (!is_closed(f)) continue;
+      is_dropped[at(f)] = 1;
+      const LocalIndex origin = mesh_.images.face_origin[at(f)];
+      LocalIndex& patch = mesh_.face_patch[at(origin)];
+      if (mesh_.is_wake(patch)) {
+        is_dropped[at(origin)] = 1;
+      } else if (mesh_.layers.is_wall(patch)) {
+        patch = patch_without_layers(patch);
+      }
+    }
     std::vector<LocalIndex> kept;
     std::vector<LocalIndex> number(at(mesh_.num_faces()), kNoIndex);
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
-      if (is_closed(f)) {
-        LocalIndex& patch = mesh_.face_patch[at(mesh_.images.face_origin[at(f)])];
-        if (mesh_.layers.is_wall(patch)) patch = patch_without_layers(patch);
-        continue;
-      }
+      if (is_dropped[at(f)] != 0) continue;
       number[at(f)] = static_cast<LocalIndex>(kept.size());
       kept.push_back(f);
     }

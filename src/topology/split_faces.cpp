@@ -108,6 +108,19 @@ SplitFaces::SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options
   drop_closed_joints();
 }
 
+SplitFaces::SplitFaces(const mesh::CoarseMesh& mesh) : mesh_(mesh)
+{
+  const std::vector<mesh::TriangleTets> triangles = mesh::triangles_of_tets(mesh.tet_vertices);
+  for (const mesh::TriangleTets& triangle : mesh::tets_of_faces(mesh, triangles)) {
+    const auto face = static_cast<LocalIndex>(tets_.size());
+    const bool is_wake = mesh.is_wake(mesh.face_patch[at(face)]);
+    tets_.push_back(triangle.tets);
+    openings_.push_back({.is_open = is_wake, .is_wake = is_wake});
+    if (is_wake) faces_.push_back(face);
+  }
+  find_sides(triangles);
+}
+
 std::size_t SplitFaces::corner(LocalIndex tet, LocalIndex vertex) const
 {
   const auto corners = mesh_.tet(tet);

@@ -18,8 +18,9 @@ struct Opening {
   bool is_open = false;
   /// Of a joint: which of SplitOptions::joints there is on either side, or kNoIndex. Ascending.
   std::array<LocalIndex, 2> joints{kNoIndex, kNoIndex};
+  bool is_wake = false;
 
-  [[nodiscard]] bool is_joint() const { return joints[1] != kNoIndex; }
+  [[nodiscard]] bool is_joint() const { return is_wake || joints[1] != kNoIndex; }
   friend auto operator<=>(const Opening&, const Opening&) = default;
 };
 
@@ -29,6 +30,9 @@ class SplitFaces {
   /// @throws ConfigError if an entry fits no patch, or one on the outside, or no
   /// solid.
   SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options);
+
+  /// @brief Those of the wakes of a mesh. @pre Nothing else is open at their vertices.
+  explicit SplitFaces(const mesh::CoarseMesh& mesh);
 
   [[nodiscard]] const std::vector<LocalIndex>& faces() const { return faces_; }  ///< Ascending.
   [[nodiscard]] const Opening& opening(LocalIndex face) const { return openings_[at(face)]; }

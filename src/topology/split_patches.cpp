@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,10 +19,38 @@
 namespace tessera::topology {
 namespace {
 
+// The sides of a joint are one patch in files.
+void begin_rows(mesh::CoarseMesh& mesh)
+{
+  if (!mesh.patch_row.empty()) return;
+  mesh.patch_row.resize(at(mesh.num_patches()));
+  std::iota(mesh.patch_row.begin(), mesh.patch_row.end(), 0);
+}
+
+// Faces of wakes, each kind on a patch of its own, which has the name and the row of a wall.
+void add_faces(std::span<const mesh::WakeTriangle> wakes, mesh::CoarseMesh& mesh)
+{
+  begin_rows(mesh);
+  if (mesh.images.are_none()) mesh.images.begin(mesh.num_patches(), mesh.num_faces());
+  std::map<LocalIndex, LocalIndex> patches;  // By wall.
+  for (const mesh::WakeTriangle& triangle : wakes) {
+    const auto [patch, is_new] = patches.try_emplace(triangle.wall, kNoIndex);
+    if (is_new) {
+      patch->second = add_patch(mesh, triangle.wall);
+      mesh.patch_surface[at(patch->second)] = kNoIndex;
+    }
+    mesh.face_vertices.insert(mesh.face_vertices.end(), triangle.vertices.begin(),
+                              triangle.vertices.end());
+    mesh.face_patch.push_back(LocalIndex{patch->second});
+    mesh.images.face_origin.push_back(kNoIndex);
+    if (!mesh.face_uv.empty()) mesh.face_uv.resize(mesh.face_uv.size() + 6, 0.0);
+  }
+}
+
 // Gives every side of a vertex a vertex of its own.
 class Opener {
  public:
-  Opener(mesh::CoarseMesh& mesh, const SplitOptions& options) : mesh_(mesh), split_(mesh, options)
+  Opener(mesh::CoarseMesh& mesh, SplitFaces split) : mesh_(mesh), split_(std::move(split))
   {
     for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
       first_copy_.push_back(static_cast<LocalIndex>(origin_.size()));
@@ -77,7 +106,7 @@ class Opener {
 
   void make_sides(LocalIndex patch, const Opening& way, bool is_all)
   {
-    if (way.is_joint()) begin_rows();
+    if (way.is_joint()) begin_rows(mesh_);
     const LocalIndex plus = is_all ? patch : add_patch(mesh_, patch);
     if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside[at(plus)] = 0;
     const LocalIndex minus = add_patch(mesh_, patch);
@@ -85,14 +114,6 @@ class Opener {
     images.patch_origin[at(minus)] = plus;
     images.patch_is_joint[at(plus)] = images.patch_is_joint[at(minus)] = way.is_joint() ? 1 : 0;
     sides_[{patch, way}] = {plus, minus};
-  }
-
-  // The sides of a joint are one patch in files.
-  void begin_rows()
-  {
-    if (!mesh_.patch_row.empty()) return;
-    mesh_.patch_row.resize(at(mesh_.num_patches()));
-    std::iota(mesh_.patch_row.begin(), mesh_.patch_row.end(), 0);
   }
 
   // Patches that were of one row still are if they will have one name.
@@ -188,7 +209,15 @@ class Opener {
 
 void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options)
 {
-  Opener(mesh, options).run();
+  Opener(mesh, SplitFaces(mesh, options)).run();
+  mesh::validate(mesh);
+}
+
+void open_wakes(mesh::CoarseMesh& mesh, std::span<const mesh::WakeTriangle> wakes)
+{
+  if (wakes.empty()) return;
+  add_faces(wakes, mesh);
+  Opener(mesh, SplitFaces(mesh)).run();
   mesh::validate(mesh);
 }
 

@@ -21,6 +21,13 @@ from program import OK, sets  # noqa: E402
 FORMATS = ("abaqus", "elmer", "exodus", "medit", "mfem", "mfem-sets", "msh", "msh2", "msh-parts", "openfoam",
            "openfoam-serial", "pvtu-cells", "xdmf")  # fmt: skip
 
+# Of 11 degrees, across a channel.
+WEDGE = (
+    "algebraic3d\nsolid channel = orthobrick (-1, -1, 0; 2, 1, 1);\n"
+    "solid wedge = plane (0, 0, 0; -1, 0, 0) and plane (1, 0, 0; 0.1, 1, 0) and plane (1, 0, 0; 0.1, -1, 0);\n"
+    "solid flow = channel and not wedge;\ntlo flow;\n"
+)
+
 # Sides seen from outside. The first triangle of a prism and the base of a pyramid are seen from the other corners.
 SIDES = {
     "tet": [(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)],
@@ -309,14 +316,16 @@ READERS = {
 
 
 class LayersFormatsTest(program.ProgramTest):
+    MODEL, WALLS = CAPSULE, "wall"
+
     @classmethod
     def setUpClass(cls):
         maker = cls.make_maker()
-        maker.write("model.geo", CAPSULE)
+        maker.write("model.geo", cls.MODEL)
         cls.case = maker.write(
             "case.toml",
             "geometry.file = 'model.geo'\ncoarse.max_size = 0.4\ndecompose.subdomains = 3\nfill.kernel = 'subdivide'\n"
-            "refine.levels = 1\n[[layer]]\npatch = 'wall'\nfirst = 0.02\ncount = 2\n",
+            f"refine.levels = 1\n[[layer]]\npatch = '{cls.WALLS}'\nfirst = 0.02\ncount = 2\n",
         )
         cls.mesh_folder = maker.mesh(cls.case, "mesh")
         cls.report = program.figures(cls.mesh_folder)
@@ -370,6 +379,12 @@ class Files(LayersFormatsTest):
         self.assertEqual(mesh.num_cells(), sum(self.expected_counts().values()))
         begin = len(mesh.neighbour)
         self.assertEqual(int((mesh.num_corners[begin:] == 4).sum()), counts["quad"])
+
+
+class OfASharpEdge(Files):
+    """Layers go on into the flow behind a wedge, and close there."""
+
+    MODEL, WALLS = WEDGE, "patch_[789]"
 
 
 class SameBits(LayersFormatsTest):

@@ -286,6 +286,105 @@ class SeveralEntries(LayersTest):
         self.assertAlmostEqual(mesh.cell_volumes().sum(), 1.0, places=9)
 
 
+class SharpEdge(LayersTest):
+    """Of a wedge of 11 degrees across a channel, and of one that is shorter than the channel is wide."""
+
+    WEDGE = (
+        "algebraic3d\nsolid channel = orthobrick (-1, -1, 0; 2, 1, 1);\n"
+        "solid wedge = plane (0, 0, 0; -1, 0, 0) and plane (1, 0, 0; 0.1, 1, 0) and plane (1, 0, 0; 0.1, -1, 0)\n"
+        "  ENDS;\nsolid flow = channel and not wedge;\ntlo flow;\n"
+    )
+    ACROSS = WEDGE.replace("ENDS", "and plane (0, 0, -1; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1)")
+    SHORT = WEDGE.replace("ENDS", "and plane (0, 0, 0.2; 0, 0, -1) and plane (0, 0, 0.8; 0, 0, 1)")
+    COUNT, FIRST = 4, 0.02
+
+    def wedge(self, text=ACROSS, patch="patch_[789]"):
+        return self.case(text=text, patch=patch, first=self.FIRST, count=self.COUNT)
+
+    def assert_no_face_inside(self, out, report):
+        """The boundary is that of the model, without the faces of the wake."""
+        self.assertAlmostEqual(report["volume"], 5.9, places=9)
+        area = sum(patch["area"] for patch in report["patches"])
+        self.assertAlmostEqual(area, report["boundary_area"], places=9)
+        self.assertEqual(len(report["patches"]), 9)
+        self.assertAlmostEqual(area, 2 * 5.9 + 2 * 3.0 + 2 * 2.0 + 0.2 + 2 * math.hypot(1.0, 0.1), places=9)
+        for x, y, z in vtk_to_numpy(grid_of(out / "boundary.pvtu").GetPoints().GetData()):
+            self.assertFalse(1.001 < x < 1.999 and abs(y) < 0.5 and 0.001 < z < 0.999)
+
+    def test_has_layers_all_around_it(self):
+        out = self.mesh(self.wedge(), "out")
+        report = self.checked(out)
+        self.assertEqual(report["layers"]["covered"], 1.0)
+        self.assertGreater(report["layers"]["full_height"], 0.9)
+        self.assert_no_face_inside(out, report)
+        # Both columns at the edge are as high as the layers should be.
+        grid = grid_of(out / "mesh.pvtu")
+        layer = vtk_to_numpy(grid.GetCellData().GetArray("layer"))
+        height = self.FIRST * sum(1.2**i for i in range(self.COUNT))
+        tops = {point for cell in numpy.flatnonzero(layer == self.COUNT) for point in points_of(grid, cell)}
+        for side in (1.0, -1.0):
+            off = [side * y for x, y, z in tops if 0.9 < x < 1.1 and 0.3 < z < 0.7]
+            self.assertGreater(max(off), 0.95 * height)
+
+    def test_has_the_same_bits_for_any_number_of_ranks(self):
+        for name, text, patch in (("across", self.ACROSS, "patch_[789]"), ("short", self.SHORT, "*")):
+            for kernel, others in (("subdivide", (2, 3, 5)), ("optimize", (3,)), ("netgen", (2,))):
+                with self.subTest(name=name, kernel=kernel):
+                    case = self.wedge(text, patch)
+                    alone = self.mesh(case, f"{name}_{kernel}", *sets(f"fill.kernel={kernel}"))
+                    self.checked(alone)
+                    for ranks in others:
+                        other = self.mesh(case, f"{name}_{kernel}_{ranks}", *sets(f"fill.kernel={kernel}"), ranks=ranks)
+                        self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
+
+    def test_has_the_same_layers_for_any_number_of_subdomains(self):
+        case = self.wedge()
+        found = set()
+        for subdomains in (1, 2, 8, 20):
+            out = self.mesh(case, f"out_{subdomains}",
+                            *sets("fill.kernel=subdivide", f"decompose.subdomains={subdomains}"), ranks=2)
+            report = self.checked(out)
+            layers = report["layers"]
+            found.add((layers["num_tets"], layers["num_cells"], round(layers["volume"], 9), report["num_vertices"]))
+        self.assertEqual(len(found), 1, found)
+
+    def test_where_edges_have_levels_of_their_own(self):
+        case = self.wedge()
+        text = case.read_text().replace("refine.levels = 1\n", "").replace("coarse.max_size = 0.3\n", "")
+        case.write_text(text + "[size]\ntarget = 0.2\n[[size.region]]\nsize = 0.06\n"
+                        "ball = { centre = [1, 0, 0.5], radius = 0.2 }\n")
+        out = self.mesh(case, "out", ranks=2)
+        report = self.checked(out)
+        self.assertGreater(len(report["coarse"]["edges_by_level"]), 1)
+        self.assert_no_face_inside(out, report)
+
+    def test_goes_on_after_a_stop(self):
+        self.assert_goes_on_after_a_stop(self.wedge())
+
+    def test_has_cells_of_openfoam_and_parts(self):
+        out = self.mesh(self.wedge(), "out", *sets('output.formats=["openfoam-serial"]'))
+        report = self.checked(out)
+        mesh = PolyMesh(out)
+        for axis in range(3):
+            self.assertLess(abs(mesh.cell_sums(mesh.face_areas[:, axis])).max(), 1e-12)
+        self.assertEqual(mesh.num_cells(), report["num_cells"])
+        self.assertGreater(mesh.cell_volumes().min(), 0.0)
+        self.assertAlmostEqual(mesh.cell_volumes().sum(), 5.9, places=9)
+        self.run_program("repartition", out / "mesh.pvtu", "--parts", "3", "--output", "parts", ranks=2)
+        self.assertEqual(self.run_program("check", self.folder / "parts" / "mesh.pvtu").code, OK)
+
+    def test_keeps_tets_of_a_mesh_of_ones_own(self):
+        self.wedge()
+        plain = self.write("plain.toml", f"geometry.file = 'model.geo'\ncoarse.max_size = 0.2\nrefine.levels = 0\n{program.NO_PAGE}")
+        made = self.mesh(plain, "made", *sets('output.formats=["pvtu", "msh2"]'))
+        case = self.write("own.toml", f"geometry.file = '{made / 'mesh_v2.msh'}'\nfill.kernel = 'subdivide'\nrefine.levels = 1\n"
+                          f"{program.NO_PAGE}[[layer]]\npatch = 'patch_[789]'\nfirst = 0.002\ncount = 3\n")
+        out = self.mesh(case, "own", ranks=2)
+        report = self.checked(out)
+        self.assertEqual(report["layers"]["covered"], 1.0)
+        self.assert_no_face_inside(out, report)
+
+
 class Baffle(LayersTest):
     """A plate that reaches into a channel from its floor, and ends in the middle."""
 

@@ -61,7 +61,8 @@ struct CoarseMesh {
   std::vector<NamedCurve> curves{};  ///< Those that segments lie on, ascending; empty: not known.
 
   std::vector<std::string> patch_names{};  ///< Shape (num_patches).
-  FlatArray<LocalIndex> patch_surface{};   ///< Shape (num_patches); the Model's surface number.
+  FlatArray<LocalIndex> patch_surface{};   ///< Shape (num_patches); the Model's surface number, or
+                                           ///< kNoIndex: is_wake().
   FlatArray<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
                                       ///< from 0. Patches of one row have one name, that of its
                                       ///< first patch. Empty: each patch is its own row.
@@ -95,6 +96,14 @@ struct CoarseMesh {
   [[nodiscard]] LocalIndex body(LocalIndex m) const
   {
     return material_row.empty() ? m : material_row[at(m - 1)] + 1;
+  }
+
+  /// @brief Whether a patch is a side of a *wake*: triangles inside of a material that go on from a
+  /// sharp edge of walls. The mesh is open there as at a joint, so layers go on along both sides. A
+  /// wake has the name and the row of a wall, lies on no geometry, and is in no file.
+  [[nodiscard]] bool is_wake(LocalIndex patch) const
+  {
+    return patch != kNoIndex && patch_surface[at(patch)] == kNoIndex;
   }
 
   /// @brief Vertices of tet `t`.

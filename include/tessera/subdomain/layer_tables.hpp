@@ -90,10 +90,11 @@ class LayerTables {
   /// @brief Whether a wall lies inside of the model: at a joint.
   [[nodiscard]] bool is_inside(LocalIndex wall) const { return coarse_->images.is_joint(wall); }
 
-  /// @brief Whether files have the triangles of a patch from the other side of a joint.
+  /// @brief Whether files have the triangles of a patch from the other side of a joint, or not at
+  /// all.
   [[nodiscard]] bool is_hidden(LocalIndex patch) const
   {
-    return coarse_->images.is_minus_of_joint(patch);
+    return coarse_->images.is_minus_of_joint(patch) || coarse_->is_wake(patch);
   }
 
   /// @brief The side of layers that stands on a small edge between two vertices of walls, if it

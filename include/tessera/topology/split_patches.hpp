@@ -4,6 +4,7 @@
 #include <span>
 
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/wake_triangle.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/topology/options.hpp"
 
@@ -32,6 +33,12 @@ void divide_at_rims(mesh::CoarseMesh& mesh, const SplitOptions& options, const m
 /// @pre !are_rims_near() without the joints; no layers. @post mesh::validate() accepts the mesh.
 /// @throws as are_rims_near().
 void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options);
+
+/// @brief Opens a mesh along wakes as along joints: CoarseMesh::is_wake(). Local; O(n log n).
+/// @pre Each triangle has a vertex whose tets all its triangles part in two. No face of another
+/// split or joint, no periodic side and no other wake has such a vertex.
+/// @post mesh::validate() accepts the mesh.
+void open_wakes(mesh::CoarseMesh& mesh, std::span<const mesh::WakeTriangle> wakes);
 
 /// @brief Closes joints where no layers have grown: copies of a vertex that have no column become
 /// one, and so do sides all of whose vertices do. Local; does nothing without joints.

@@ -34,6 +34,7 @@ std::vector<std::vector<LocalIndex>> faces_of_rows(const mesh::CoarseMesh& coars
 {
   std::vector<std::vector<LocalIndex>> faces(num_rows);
   for (std::size_t p = 0; p < coarse.patch_names.size(); ++p) {
+    if (coarse.is_wake(static_cast<LocalIndex>(p))) continue;
     const std::size_t row = coarse.patch_row.empty() ? p : at(coarse.patch_row[p]);
     faces[row].push_back(coarse.patch_surface[p] + 1);
   }

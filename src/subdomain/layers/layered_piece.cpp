@@ -200,7 +200,7 @@ class LayerBuilder {
     piece().boundary_tet[at(row)] = tet_behind(triangle, piece().num_tets() - num_last);
   }
 
-  // The piece on the other side of a joint has these triangles.
+  // The piece on the other side of a joint has these triangles; of a wake nobody has them.
   void drop_hidden()
   {
     LocalIndex num_kept = 0;

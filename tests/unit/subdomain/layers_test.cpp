@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/layers/find_wakes.hpp"
 #include "tessera/layers/grow_layers.hpp"
 #include "tessera/mesh/face_tets.hpp"
 #include "tessera/mesh/lattice_levels.hpp"
@@ -22,6 +23,7 @@
 #include "support/filled_cube.hpp"
 #include "support/flat_model.hpp"
 #include "support/meshes.hpp"
+#include "support/wedge_cube.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -84,11 +86,18 @@ void add_layers(const std::vector<Wall>& walls, mesh::CoarseMesh& cube)
   topology::close_joints(cube);
 }
 
-// A cube of two materials, in four subdomains.
+// A mesh in several subdomains.
 class LayeredBody {
  public:
   explicit LayeredBody(mesh::CoarseMesh coarse)
-      : coarse_(std::move(coarse)), body_(coarse_, testing::slabs(coarse_, 2))
+      : LayeredBody(std::move(coarse),
+                    [](const mesh::CoarseMesh& mesh) { return testing::slabs(mesh, 2); })
+  {
+  }
+
+  template <class Decompose>
+  LayeredBody(mesh::CoarseMesh coarse, const Decompose& decompose)
+      : coarse_(std::move(coarse)), body_(coarse_, decompose(coarse_))
   {
   }
 
@@ -152,22 +161,25 @@ void expect_one_mesh(const WholeMesh& whole)
   }
 }
 
+void expect_closed_forms(const LayeredBody& layered, int levels, double expected_volume)
+{
+  const testing::Body& body = layered.body();
+  const PartitionedMesh cut(body.coarse, body.decomposition, levels);
+  const auto counts = count_subdivided_pieces(cut, levels);
+  double volume = 0.0;
+  for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
+    const PieceSummary summary = layered.filled(levels, s).result.summary;
+    EXPECT_FALSE(summary.is_folded);
+    EXPECT_EQ(counts_of(summary).tets, counts[at(s)].tets);
+    EXPECT_EQ(counts_of(summary).boundary_triangles, counts[at(s)].boundary_triangles);
+    volume += summary.whole_volume();
+  }
+  EXPECT_NEAR(volume, expected_volume, 1e-12);
+}
+
 TEST_P(LayeredCube, HoldsWhatTheClosedFormsSay)
 {
-  const testing::Body& body = layered_.body();
-  for (const int levels : {0, 1, 2}) {
-    const PartitionedMesh cut(body.coarse, body.decomposition, levels);
-    const auto counts = count_subdivided_pieces(cut, levels);
-    double volume = 0.0;
-    for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-      const PieceSummary summary = layered_.filled(levels, s).result.summary;
-      EXPECT_FALSE(summary.is_folded);
-      EXPECT_EQ(counts_of(summary).tets, counts[at(s)].tets);
-      EXPECT_EQ(counts_of(summary).boundary_triangles, counts[at(s)].boundary_triangles);
-      volume += summary.whole_volume();
-    }
-    EXPECT_NEAR(volume, 1.0, 1e-12);
-  }
+  for (const int levels : {0, 1, 2}) expect_closed_forms(layered_, levels, 1.0);
 }
 
 TEST_P(LayeredCube, IsOneMesh) { expect_one_mesh(layered_.whole_mesh(1)); }
@@ -238,6 +250,56 @@ TEST(JointsAtPeriodicSides, AreOneMesh)
     }
   }
 }
+
+// Layers go around the sharp edge of a wedge and on in front of it. Subdomains meet along the wake,
+// or across it alone.
+class LayeredWedge : public ::testing::TestWithParam<std::vector<Wall>> {
+ protected:
+  static mesh::CoarseMesh with_layers()
+  {
+    mesh::CoarseMesh cube = testing::wedge_cube(kThickness);
+    std::vector<layers::LayerOptions> options;
+    for (const auto& [patch, count, side] : GetParam()) {
+      options.push_back({.patch = cube.patch_names[patch], .first = 0.02, .count = count});
+    }
+    topology::open_wakes(cube, layers::find_wakes(cube, options, false));
+    (void)layers::grow_layers(cube, options, testing::FlatModel(), false);
+    topology::close_joints(cube);
+    return cube;
+  }
+
+  static constexpr double kThickness = 0.1;
+  const double volume_ = 1.0 - 0.25 * kThickness;
+  const LayeredBody in_slabs_{with_layers()};
+  const LayeredBody in_octants_{with_layers(), testing::octants};
+};
+
+TEST_P(LayeredWedge, HoldsWhatTheClosedFormsSay)
+{
+  for (const LayeredBody* layered : {&in_slabs_, &in_octants_}) {
+    const mesh::CoarseMesh& coarse = layered->body().coarse;
+    EXPECT_TRUE(std::ranges::any_of(coarse.face_patch,
+                                    [&](LocalIndex patch) { return coarse.is_wake(patch); }));
+    for (const int levels : {0, 1, 2}) expect_closed_forms(*layered, levels, volume_);
+  }
+}
+
+TEST_P(LayeredWedge, IsOneMesh)
+{
+  for (const LayeredBody* layered : {&in_slabs_, &in_octants_}) {
+    for (const int levels : {0, 1, 2}) {
+      const WholeMesh whole = layered->whole_mesh(levels);
+      expect_one_mesh(whole);
+      for (const auto& [triangle, count] : whole.boundary) EXPECT_EQ(whole.sides.at(triangle), 1);
+    }
+  }
+}
+
+// Both of its sides; with different numbers of layers; with a wall where its edge ends.
+INSTANTIATE_TEST_SUITE_P(Walls, LayeredWedge,
+                         ::testing::Values(std::vector<Wall>{{6}, {7}},
+                                           std::vector<Wall>{{6, 1}, {7, 4}},
+                                           std::vector<Wall>{{6}, {7}, {2}}));
 
 }  // namespace
 }  // namespace tessera::subdomain

@@ -22,6 +22,7 @@
 #include "support/flat_model.hpp"
 #include "support/meshes.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/wedge_cube.hpp"
 
 namespace tessera::topology {
 namespace {
@@ -358,6 +359,55 @@ TEST(Joints, NameASolid)
 {
   mesh::CoarseMesh cube = testing::two_material_cube(2);
   EXPECT_THROW(split_patches(cube, {.joints = {{.patch = "*", .solid = "steel"}}}), ConfigError);
+}
+
+// In front of the edge of a wedge: x from 1/2 to 3/4 at z = 1/2.
+std::vector<mesh::WakeTriangle> wake_of(const mesh::CoarseMesh& cube)
+{
+  std::vector<mesh::WakeTriangle> wake;
+  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(cube.tet_vertices)) {
+    const bool is_its = std::ranges::all_of(triangle.vertices, [&](LocalIndex v) {
+      const Vec3 place = cube.position(v);
+      return place[0] >= 0.5 && place[0] <= 0.75 && place[2] == 0.5;
+    });
+    if (is_its) wake.push_back({triangle.vertices, 7});
+  }
+  return wake;
+}
+
+TEST(Wakes, OpenFromAnEdgeAndHaveTheNameOfAWall)
+{
+  const mesh::CoarseMesh before = testing::wedge_cube(0.1);
+  mesh::CoarseMesh cube = before;
+  const auto wake = wake_of(before);
+  ASSERT_EQ(wake.size(), 8U);
+  open_wakes(cube, wake);
+  EXPECT_EQ(cube.num_vertices(), before.num_vertices() + 5);
+  EXPECT_EQ(cube.num_faces(), before.num_faces() + 16);
+  ASSERT_EQ(cube.num_patches(), 10);
+  for (const LocalIndex patch : {8, 9}) {
+    EXPECT_TRUE(cube.is_wake(patch));
+    EXPECT_TRUE(cube.images.is_joint(patch));
+    EXPECT_EQ(cube.patch_names[at(patch)], before.patch_names[7]);
+    EXPECT_EQ(cube.patch_row[at(patch)], cube.patch_row[7]);
+  }
+  EXPECT_EQ(cube.images.patch_origin[9], 8);
+  EXPECT_FALSE(cube.is_wake(7));
+  EXPECT_FALSE(cube.is_wake(kNoIndex));
+}
+
+TEST(Wakes, CloseWithoutATrace)
+{
+  const mesh::CoarseMesh before = testing::wedge_cube(0.1);
+  mesh::CoarseMesh cube = before;
+  open_wakes(cube, {});
+  EXPECT_TRUE(cube.images.are_none());
+  open_wakes(cube, wake_of(before));
+  close_joints(cube);
+  EXPECT_EQ(cube.vertex_xyz, before.vertex_xyz);
+  EXPECT_EQ(cube.tet_vertices, before.tet_vertices);
+  EXPECT_EQ(cube.face_vertices, before.face_vertices);
+  EXPECT_EQ(cube.face_patch, before.face_patch);
 }
 
 }  // namespace
