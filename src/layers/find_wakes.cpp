@@ -16,6 +16,7 @@
 
 #include "layers/flatten_wakes.hpp"
 #include "layers/link_way.hpp"
+#include "layers/ridges.hpp"
 #include "layers/wall_choice.hpp"
 #include "layers/wall_surface.hpp"
 
@@ -28,18 +29,12 @@ using Edge = std::array<LocalIndex, 2>;
 // bluntest ridge, and more.
 constexpr double kLeastCosine = 0.5;
 
-// A sharp edge between two triangles of walls.
-struct Ridge {
-  Edge edge{};
-  Vec3 middle{};               // Into the material, between the walls; of length 1.
-  LocalIndex apex = kNoIndex;  // Of the triangle of the wake on it.
-};
-
 class WakeFinder {
  public:
   WakeFinder(mesh::CoarseMesh& mesh, std::span<const PatchLayers> patches)
       : mesh_(mesh),
         walls_(find_walls(mesh, patches)),
+        ridges_(find_ridges(mesh, walls_)),
         tets_at_(rows_by_key(mesh.tet_vertices, mesh.num_vertices(), 4)),
         is_on_surface_(at(mesh.num_vertices()), 0),
         has_obstacle_(at(mesh.num_vertices()), 0)
@@ -54,11 +49,16 @@ class WakeFinder {
         triangles_at_[v].push_back(static_cast<LocalIndex>(row));
       }
     }
+    for (std::size_t row = 0; row < ridges_.size(); ++row) {
+      apexes_.push_back(apex_of(ridges_[row]));
+      for (const LocalIndex v : ridges_[row].edge) {
+        ridges_at_[v].push_back(static_cast<LocalIndex>(row));
+      }
+    }
   }
 
   std::vector<mesh::WakeTriangle> run(bool keep_tets)
   {
-    find_ridges();
     std::vector<RidgeVertex> found;
     for (const auto& [vertex, ridges] : ridges_at_) {
       RidgeVertex one{.vertex = vertex, .ridges = ridges};
@@ -96,36 +96,10 @@ class WakeFinder {
     return walls_.triangles[at(row)];
   }
 
-  void find_ridges()
-  {
-    std::map<Edge, std::vector<LocalIndex>> sides;
-    for (std::size_t row = 0; row < walls_.triangles.size(); ++row) {
-      const auto& v = walls_.triangles[row].vertices;
-      for (std::size_t c = 0; c < 3; ++c) {
-        sides[mesh::sorted_edge(v[c], v[(c + 1) % 3])].push_back(static_cast<LocalIndex>(row));
-      }
-    }
-    for (const auto& [edge, rows] : sides) {
-      if (rows.size() != 2 || !is_sharp(edge, triangle(rows[0]), triangle(rows[1]))) continue;
-      const auto row = static_cast<LocalIndex>(ridges_.size());
-      const Vec3 middle = unit(-1.0 * (triangle(rows[0]).normal + triangle(rows[1]).normal));
-      ridges_.push_back({.edge = edge, .middle = middle, .apex = apex_of(edge, middle)});
-      for (const LocalIndex v : edge) ridges_at_[v].push_back(row);
-    }
-  }
-
-  [[nodiscard]] bool is_sharp(const Edge& edge, const SurfaceTriangle& a,
-                              const SurfaceTriangle& b) const
-  {
-    if (!a.is_wall || !b.is_wall) return false;
-    const LocalIndex other = *std::ranges::find_if(
-        b.vertices, [&](LocalIndex v) { return std::ranges::count(edge, v) == 0; });
-    return is_ridge(a.normal, b.normal, mesh_.position(other) - mesh_.position(edge[0]));
-  }
-
   // Of the vertices off the walls that have a triangle on the edge, the one nearest to the middle.
-  [[nodiscard]] LocalIndex apex_of(const Edge& edge, const Vec3& middle) const
+  [[nodiscard]] LocalIndex apex_of(const Ridge& ridge) const
   {
+    const Edge& edge = ridge.edge;
     const Vec3 along = unit(mesh_.position(edge[1]) - mesh_.position(edge[0]));
     LocalIndex nearest = kNoIndex;
     double least = std::numeric_limits<double>::infinity();
@@ -135,7 +109,7 @@ class WakeFinder {
       for (const LocalIndex v : corners) {
         if (is_blocked_[at(v)] != 0) continue;
         const Vec3 there = mesh_.position(v) - mesh_.position(edge[0]);
-        const double angle = angle_between(there - dot(there, along) * along, middle);
+        const double angle = angle_between(there - dot(there, along) * along, ridge.middle);
         if (angle < least || (angle == least && v < nearest)) {
           least = angle;
           nearest = v;
@@ -182,13 +156,13 @@ class WakeFinder {
     if (has_obstacle_[at(one.vertex)] != 0 || one.ridges.size() + num_sides != 2) return false;
     if (one.ridges.empty()) return false;
     for (const LocalIndex ridge : one.ridges) {
-      if (ridges_[at(ridge)].apex == kNoIndex) return false;
+      if (apexes_[at(ridge)] == kNoIndex) return false;
     }
     one.normal = normal_at(one);
-    const LocalIndex first = ridges_[at(one.ridges.front())].apex;
-    const std::set<LocalIndex> ends =
-        num_sides > 0 ? ends_on_side(one.vertex)
-                      : std::set<LocalIndex>{ridges_[at(one.ridges.back())].apex};
+    const LocalIndex first = apexes_[at(one.ridges.front())];
+    const std::set<LocalIndex> ends = num_sides > 0
+                                          ? ends_on_side(one.vertex)
+                                          : std::set<LocalIndex>{apexes_[at(one.ridges.back())]};
     const LinkOf link(mesh_, tets_at_[one.vertex], one.vertex);
     one.way = link.way(first, ends, is_blocked_, one.normal);
     if (one.way.empty()) return false;
@@ -345,13 +319,14 @@ class WakeFinder {
 
   mesh::CoarseMesh& mesh_;
   WallSurface walls_;
-  IndexLists tets_at_;               // Of each vertex.
-  std::vector<char> is_on_surface_;  // Of each vertex: on a face.
-  std::vector<char> has_obstacle_;   // Of each vertex.
-  std::vector<char> is_blocked_{};   // Of each vertex: no wake may end there.
+  std::vector<Ridge> ridges_;
+  std::vector<LocalIndex> apexes_{};  // Of the triangles of the wakes on them; or kNoIndex.
+  IndexLists tets_at_;                // Of each vertex.
+  std::vector<char> is_on_surface_;   // Of each vertex: on a face.
+  std::vector<char> has_obstacle_;    // Of each vertex.
+  std::vector<char> is_blocked_{};    // Of each vertex: no wake may end there.
   std::map<LocalIndex, std::vector<LocalIndex>> triangles_at_{};  // Rows of walls_, by vertex.
-  std::vector<Ridge> ridges_{};
-  std::map<LocalIndex, std::vector<LocalIndex>> ridges_at_{};  // By vertex.
+  std::map<LocalIndex, std::vector<LocalIndex>> ridges_at_{};     // By vertex.
 };
 
 }  // namespace
@@ -363,6 +338,7 @@ std::vector<mesh::WakeTriangle> find_wakes(mesh::CoarseMesh& mesh,
   for (const LocalIndex entry : entries_of_patches(mesh, options)) {
     patches.push_back({.thickness = entry == kNoIndex ? 0.0 : thickness(options[at(entry)])});
   }
+  if (!keep_tets) divide_at_ridges(find_walls(mesh, patches), mesh);
   return WakeFinder(mesh, patches).run(keep_tets);
 }
 

@@ -22,8 +22,9 @@ namespace tessera::layers {
 /// periodic sides, splits, joints and faces inside; and if two columns would not be steeper than
 /// one.
 ///
-/// Vertices inside that become corners of a wake move into the middle between the walls.
-/// @param[in] keep_tets  They do not.
+/// Edges that go from wall to wall at a sharp edge are divided first, and vertices inside that
+/// become corners of a wake move into the middle between the walls.
+/// @param[in] keep_tets  They are not, and they do not.
 /// @pre mesh::validate() accepts the mesh; it has no layers.
 /// @throws ConfigError as grow_layers().
 [[nodiscard]] std::vector<mesh::WakeTriangle> find_wakes(mesh::CoarseMesh& mesh,

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tessera/base/vec3.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+
+#include "layers/wall_surface.hpp"
+
+namespace tessera::layers {
+
+/// @brief An edge between two triangles of walls that is too sharp for one column: is_ridge().
+struct Ridge {
+  std::array<LocalIndex, 2> edge{};  ///< Vertices of the coarse mesh, ascending.
+  Vec3 middle{};                     ///< Into the material, between the walls; of length 1.
+};
+
+/// @brief All of them, by edge. Local; O(n log n).
+[[nodiscard]] std::vector<Ridge> find_ridges(const mesh::CoarseMesh& mesh,
+                                             const WallSurface& walls);
+
+/// @brief Divides edges through the material from wall to wall that tets at ridges have: so there
+/// are vertices off the walls all around a ridge, for a wake to go over. Local; O(n log n).
+void divide_at_ridges(const WallSurface& walls, mesh::CoarseMesh& mesh);
+
+}  // namespace tessera::layers
