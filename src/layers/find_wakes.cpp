@@ -12,6 +12,7 @@
 #include "tessera/base/sort_unique.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/mesh/face_tets.hpp"
+#include "tessera/mesh/image_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "layers/flatten_wakes.hpp"
@@ -41,8 +42,10 @@ class WakeFinder {
   {
     for (const LocalIndex v : mesh.face_vertices) is_on_surface_[at(v)] = 1;
     find_obstacles();
+    find_partners();
     for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
-      is_blocked_.push_back(has_obstacle_[at(v)] != 0 || walls_.wall_of_vertex[at(v)] != kNoIndex);
+      is_blocked_.push_back(has_obstacle_[at(v)] != 0 || is_periodic(v)
+                            || walls_.wall_of_vertex[at(v)] != kNoIndex);
     }
     for (std::size_t row = 0; row < walls_.triangles.size(); ++row) {
       for (const LocalIndex v : walls_.triangles[row].vertices) {
@@ -62,16 +65,20 @@ class WakeFinder {
     std::vector<RidgeVertex> found;
     for (const auto& [vertex, ridges] : ridges_at_) {
       RidgeVertex one{.vertex = vertex, .ridges = ridges};
-      if (find_way(one)) found.push_back(std::move(one));
+      if (!find_way(one)) continue;
+      if (is_periodic(vertex)) end_of_way_[vertex] = one.way.back();
+      found.push_back(std::move(one));
     }
+    drop_without_partner(found);
     if (!keep_tets) flatten_wakes(found, tets_at_, is_on_surface_, mesh_);
     std::erase_if(found, [&](const RidgeVertex& one) { return !has_steep_columns(one); });
+    drop_without_partner(found);
     return triangles_of(found);
   }
 
  private:
-  // Of vertices at which the mesh is open, periodic, or has another material behind a face; and of
-  // those on lines inside.
+  // Of vertices at which the mesh is open, or has another material behind a face; and of those on
+  // lines inside.
   void find_obstacles()
   {
     const std::vector<mesh::TriangleTets> tets = mesh::tets_of_faces(mesh_);
@@ -83,12 +90,46 @@ class WakeFinder {
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
       if (tets[at(f)].tets[1] != kNoIndex) mark(f);
       if (mesh_.images.are_none() || mesh_.images.face_origin[at(f)] == kNoIndex) continue;
+      if (mesh_.images.patch_transform[at(mesh_.face_patch[at(f)])] != 0) continue;
       mark(f);
       mark(mesh_.images.face_origin[at(f)]);
     }
     for (const LocalIndex v : mesh_.segment_vertices) {
       if (is_on_surface_[at(v)] == 0) has_obstacle_[at(v)] = 1;
     }
+  }
+
+  // Where several periodic sides meet is no way.
+  void find_partners()
+  {
+    partner_.assign(at(mesh_.num_vertices()), kNoIndex);
+    const auto orbits = mesh::find_vertex_orbits(mesh_, mesh::ImageKind::periodic);
+    const IndexLists members_of = rows_by_key(orbits.vertices.base, mesh_.num_vertices());
+    for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
+      const auto members = members_of[base];
+      if (members.size() == 2) {
+        partner_[at(members[0])] = members[1];
+        partner_[at(members[1])] = members[0];
+      }
+      if (members.size() > 2) {
+        for (const LocalIndex v : members) has_obstacle_[at(v)] = 1;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_periodic(LocalIndex vertex) const
+  {
+    return partner_[at(vertex)] != kNoIndex;
+  }
+
+  // Periodic sides are opened alike.
+  void drop_without_partner(std::vector<RidgeVertex>& found) const
+  {
+    std::set<LocalIndex> all;
+    for (const RidgeVertex& one : found) all.insert(one.vertex);
+    std::erase_if(found, [&](const RidgeVertex& one) {
+      return is_periodic(one.vertex) && !all.contains(partner_[at(one.vertex)]);
+    });
   }
 
   [[nodiscard]] const SurfaceTriangle& triangle(LocalIndex row) const
@@ -136,14 +177,20 @@ class WakeFinder {
     return patches;
   }
 
-  // Vertices beside `vertex` where a wake may end: on the patch without layers, off the walls.
+  // Vertices beside `vertex` where a wake may end: on the patch without layers, off the walls. On a
+  // periodic side it is where that of the partner ends.
   [[nodiscard]] std::set<LocalIndex> ends_on_side(LocalIndex vertex) const
   {
+    const auto of_partner = end_of_way_.find(partner_[at(vertex)]);
     std::set<LocalIndex> ends;
     for (const LocalIndex row : triangles_at_.at(vertex)) {
       if (triangle(row).is_wall) continue;
       for (const LocalIndex v : triangle(row).vertices) {
-        if (walls_.wall_of_vertex[at(v)] == kNoIndex) ends.insert(v);
+        const bool is_free = has_obstacle_[at(v)] == 0 && walls_.wall_of_vertex[at(v)] == kNoIndex
+                             && is_periodic(v) == is_periodic(vertex);
+        if (!is_free) continue;
+        if (of_partner == end_of_way_.end() || of_partner->second == partner_[at(v)])
+          ends.insert(v);
       }
     }
     return ends;
@@ -320,11 +367,13 @@ class WakeFinder {
   mesh::CoarseMesh& mesh_;
   WallSurface walls_;
   std::vector<Ridge> ridges_;
-  std::vector<LocalIndex> apexes_{};  // Of the triangles of the wakes on them; or kNoIndex.
-  IndexLists tets_at_;                // Of each vertex.
-  std::vector<char> is_on_surface_;   // Of each vertex: on a face.
-  std::vector<char> has_obstacle_;    // Of each vertex.
-  std::vector<char> is_blocked_{};    // Of each vertex: no wake may end there.
+  std::vector<LocalIndex> apexes_{};   // Of the triangles of the wakes on them; or kNoIndex.
+  IndexLists tets_at_;                 // Of each vertex.
+  std::vector<char> is_on_surface_;    // Of each vertex: on a face.
+  std::vector<char> has_obstacle_;     // Of each vertex.
+  std::vector<LocalIndex> partner_{};  // Of each vertex on a periodic side its image.
+  std::map<LocalIndex, LocalIndex> end_of_way_{};  // Of vertices there.
+  std::vector<char> is_blocked_{};                 // Of each vertex: no wake may end there.
   std::map<LocalIndex, std::vector<LocalIndex>> triangles_at_{};  // Rows of walls_, by vertex.
   std::map<LocalIndex, std::vector<LocalIndex>> ridges_at_{};     // By vertex.
 };

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "tessera/mesh/image_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::layers {
@@ -66,6 +67,19 @@ class Divider {
   std::vector<std::vector<LocalIndex>> tets_at_;  // Of each vertex.
 };
 
+// Vertices that no wake may go over: on walls, and on periodic sides.
+std::vector<char> blocked_vertices(const mesh::CoarseMesh& mesh, const WallSurface& walls)
+{
+  std::vector<char> is_blocked(at(mesh.num_vertices()), 0);
+  for (const WallVertex& vertex : walls.vertices) is_blocked[at(vertex.vertex)] = 1;
+  for (const mesh::ImageEdge& edge : mesh::image_edges(mesh, mesh::ImageKind::periodic)) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      is_blocked[at(edge.from[end])] = is_blocked[at(edge.to[end])] = 1;
+    }
+  }
+  return is_blocked;
+}
+
 std::set<Edge> edges_on_surface(const mesh::CoarseMesh& mesh)
 {
   std::set<Edge> edges;
@@ -108,14 +122,15 @@ void divide_at_ridges(const WallSurface& walls, mesh::CoarseMesh& mesh)
     for (const LocalIndex v : ridge.edge) is_on_ridge[at(v)] = 1;
   }
   const std::set<Edge> on_surface = edges_on_surface(mesh);
-  const auto is_on_wall = [&](LocalIndex v) { return walls.wall_of_vertex[at(v)] != kNoIndex; };
+  const std::vector<char> is_blocked = blocked_vertices(mesh, walls);
+  const auto is_its = [&](LocalIndex v) { return is_blocked[at(v)] != 0; };
   std::set<Edge> to_divide;
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
     const auto tet = mesh.tet(t);
     if (std::ranges::none_of(tet, [&](LocalIndex v) { return is_on_ridge[at(v)] != 0; })) continue;
     for (const auto& [a, b] : mesh::kTetEdgeCorners) {
       const Edge edge = mesh::sorted_edge(tet[a], tet[b]);
-      if (std::ranges::all_of(edge, is_on_wall) && !on_surface.contains(edge)) {
+      if (std::ranges::all_of(edge, is_its) && !on_surface.contains(edge)) {
         to_divide.insert(edge);
       }
     }

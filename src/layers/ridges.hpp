@@ -21,8 +21,9 @@ struct Ridge {
 [[nodiscard]] std::vector<Ridge> find_ridges(const mesh::CoarseMesh& mesh,
                                              const WallSurface& walls);
 
-/// @brief Divides edges through the material from wall to wall that tets at ridges have: so there
-/// are vertices off the walls all around a ridge, for a wake to go over. Local; O(n log n).
+/// @brief Divides edges through the material that tets at ridges have, and whose ends are both on
+/// walls or periodic sides: so there are other vertices all around a ridge, for a wake to go over.
+/// Local; O(n log n).
 void divide_at_ridges(const WallSurface& walls, mesh::CoarseMesh& mesh);
 
 }  // namespace tessera::layers

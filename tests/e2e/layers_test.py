@@ -348,6 +348,19 @@ class SharpEdge(LayersTest):
             found.add((layers["num_tets"], layers["num_cells"], round(layers["volume"], 9), report["num_vertices"]))
         self.assertEqual(len(found), 1, found)
 
+    def test_goes_on_across_periodic_sides(self):
+        sides = "".join(f"[[geometry.name]]\nname = '{name}'\npatch = {{ normal = [0, 0, {z}] }}\n" for name, z in (("low", -1), ("high", 1)))
+        for kernel in ("subdivide", "netgen"):
+            with self.subTest(kernel=kernel):
+                case = self.wedge()
+                case.write_text(case.read_text() + sides + "[[periodic]]\nfrom = 'low'\nto = 'high'\n")
+                out = self.mesh(case, kernel, *sets(f"fill.kernel={kernel}"))
+                report = self.checked(out)
+                self.assertEqual(report["layers"]["covered"], 1.0)
+                self.assert_no_face_inside(out, report)
+                other = self.mesh(case, f"{kernel}_3", *sets(f"fill.kernel={kernel}"), ranks=3)
+                self.assertEqual(program.mesh_files(other), program.mesh_files(out))
+
     def test_where_edges_have_levels_of_their_own(self):
         case = self.wedge()
         text = case.read_text().replace("refine.levels = 1\n", "").replace("coarse.max_size = 0.3\n", "")

@@ -18,12 +18,12 @@ namespace tessera::layers {
 /// and a side of the wake, which are nearly one plane. At the other end of its triangles the layers
 /// close.
 ///
-/// A vertex is left out if the edge ends there within walls, parts or meets another one; at
-/// periodic sides, splits, joints and faces inside; and if two columns would not be steeper than
-/// one.
+/// A vertex is left out if the edge ends there within walls, parts or meets another one; at splits,
+/// joints and faces inside, and where several periodic sides meet; and if two columns would not be
+/// steep either. Periodic sides are treated alike.
 ///
-/// Edges that go from wall to wall at a sharp edge are divided first, and vertices inside that
-/// become corners of a wake move into the middle between the walls.
+/// Edges that go from wall to wall at a sharp edge, or to a periodic side, are divided first, and
+/// vertices inside that become corners of a wake move into the middle between the walls.
 /// @param[in] keep_tets  They are not, and they do not.
 /// @pre mesh::validate() accepts the mesh; it has no layers.
 /// @throws ConfigError as grow_layers().

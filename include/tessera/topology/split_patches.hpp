@@ -35,8 +35,8 @@ void divide_at_rims(mesh::CoarseMesh& mesh, const SplitOptions& options, const m
 void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options);
 
 /// @brief Opens a mesh along wakes as along joints: CoarseMesh::is_wake(). Local; O(n log n).
-/// @pre Each triangle has a vertex whose tets all its triangles part in two. No face of another
-/// split or joint, no periodic side and no other wake has such a vertex.
+/// @pre Each triangle has a vertex whose tets all its triangles part in two. No face of a split, a
+/// joint or another wake has such a vertex; periodic sides are opened alike.
 /// @post mesh::validate() accepts the mesh.
 void open_wakes(mesh::CoarseMesh& mesh, std::span<const mesh::WakeTriangle> wakes);
 

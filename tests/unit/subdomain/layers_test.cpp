@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -251,27 +252,28 @@ TEST(JointsAtPeriodicSides, AreOneMesh)
   }
 }
 
-// Layers go around the sharp edge of a wedge and on in front of it. Subdomains meet along the wake,
-// or across it alone.
+constexpr double kThickness = 0.1;
+
+// Layers go around the sharp edge of a wedge and on in front of it.
+mesh::CoarseMesh wedge_with_layers(mesh::CoarseMesh cube, const std::vector<Wall>& walls)
+{
+  std::vector<layers::LayerOptions> options;
+  for (const auto& [patch, count, side] : walls) {
+    options.push_back({.patch = cube.patch_names[patch], .first = 0.02, .count = count});
+  }
+  topology::open_wakes(cube, layers::find_wakes(cube, options, false));
+  (void)layers::grow_layers(cube, options, testing::FlatModel(), false);
+  topology::close_joints(cube);
+  return cube;
+}
+
+// Subdomains meet along the wake, or across it alone.
 class LayeredWedge : public ::testing::TestWithParam<std::vector<Wall>> {
  protected:
-  static mesh::CoarseMesh with_layers()
-  {
-    mesh::CoarseMesh cube = testing::wedge_cube(kThickness);
-    std::vector<layers::LayerOptions> options;
-    for (const auto& [patch, count, side] : GetParam()) {
-      options.push_back({.patch = cube.patch_names[patch], .first = 0.02, .count = count});
-    }
-    topology::open_wakes(cube, layers::find_wakes(cube, options, false));
-    (void)layers::grow_layers(cube, options, testing::FlatModel(), false);
-    topology::close_joints(cube);
-    return cube;
-  }
-
-  static constexpr double kThickness = 0.1;
   const double volume_ = 1.0 - 0.25 * kThickness;
-  const LayeredBody in_slabs_{with_layers()};
-  const LayeredBody in_octants_{with_layers(), testing::octants};
+  const LayeredBody in_slabs_{wedge_with_layers(testing::wedge_cube(kThickness), GetParam())};
+  const LayeredBody in_octants_{wedge_with_layers(testing::wedge_cube(kThickness), GetParam()),
+                                testing::octants};
 };
 
 TEST_P(LayeredWedge, HoldsWhatTheClosedFormsSay)
@@ -300,6 +302,36 @@ INSTANTIATE_TEST_SUITE_P(Walls, LayeredWedge,
                          ::testing::Values(std::vector<Wall>{{6}, {7}},
                                            std::vector<Wall>{{6, 1}, {7, 4}},
                                            std::vector<Wall>{{6}, {7}, {2}}));
+
+TEST(WedgeAtPeriodicSides, IsOneMesh)
+{
+  for (const bool leads_back : {false, true}) {
+    mesh::CoarseMesh cube = testing::wedge_cube(kThickness);
+    topology::PeriodicSide sides{.from = "y0", .to = "y1"};
+    if (leads_back) std::swap(sides.from, sides.to);
+    topology::join_periodic_sides(cube, std::vector{sides});
+    cube = wedge_with_layers(std::move(cube), {{6}, {7}});
+    std::array<int, 2> num_at_sides{};
+    for (LocalIndex f = 0; f < cube.num_faces(); ++f) {
+      if (!cube.is_wake(cube.face_patch[at(f)])) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3 wall = cube.layers.wall(cube.face_vertices[3 * at(f) + c]);
+        num_at_sides[0] += wall[0] == 0.5 && wall[1] == 0.0 ? 1 : 0;
+        num_at_sides[1] += wall[0] == 0.5 && wall[1] == 1.0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(num_at_sides[0], 0);
+    EXPECT_GT(num_at_sides[1], 0);
+    const LayeredBody in_slabs(cube);
+    const LayeredBody in_octants(cube, testing::octants);
+    for (const LayeredBody* layered : {&in_slabs, &in_octants}) {
+      for (const int levels : {0, 1, 2}) {
+        expect_closed_forms(*layered, levels, 1.0 - 0.25 * kThickness);
+        expect_one_mesh(layered->whole_mesh(levels));
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace tessera::subdomain
