@@ -99,20 +99,22 @@ class WakeFinder {
     }
   }
 
-  // Where several periodic sides meet is no way.
+  // Where several periodic sides meet is no way, nor on the axis of a rotation.
   void find_partners()
   {
     partner_.assign(at(mesh_.num_vertices()), kNoIndex);
     const auto orbits = mesh::find_vertex_orbits(mesh_, mesh::ImageKind::periodic);
     const IndexLists members_of = rows_by_key(orbits.vertices.base, mesh_.num_vertices());
-    for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
-      const auto members = members_of[base];
-      if (members.size() == 2) {
-        partner_[at(members[0])] = members[1];
-        partner_[at(members[1])] = members[0];
-      }
-      if (members.size() > 2) {
-        for (const LocalIndex v : members) has_obstacle_[at(v)] = 1;
+    for (const mesh::ImageEdge& edge : mesh::image_edges(mesh_, mesh::ImageKind::periodic)) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const LocalIndex from = edge.from[end];
+        const LocalIndex to = edge.to[end];
+        if (members_of[orbits.vertices.base_of(from)].size() == 2) {
+          partner_[at(from)] = to;
+          partner_[at(to)] = from;
+        } else {
+          has_obstacle_[at(from)] = has_obstacle_[at(to)] = 1;
+        }
       }
     }
   }
