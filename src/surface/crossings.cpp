@@ -12,15 +12,15 @@ namespace tessera::surface {
 namespace {
 
 // Where the edge, whose ends seem to be on different sides of the triangle's plane, goes through
-// it; also at its rim, as no tets fit between two edges that meet. Exact: triangles of one plane,
-// as that of a side that was turned, are off it by rounding.
+// it; also at its rim if that counts, as no tets fit between two edges that meet. Exact: triangles
+// of one plane, as that of a side that was turned, are off it by rounding.
 std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, double above, double below,
-                             const std::array<Vec3, 3>& triangle)
+                             const std::array<Vec3, 3>& triangle, AtRim at_rim)
 {
   int side = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const int of_edge = delaunay::orient3d(from, to, triangle[i], triangle[(i + 1) % 3]);
-    if (of_edge * side < 0) return std::nullopt;
+    if (of_edge * side < 0 || (of_edge == 0 && at_rim == AtRim::passes)) return std::nullopt;
     if (of_edge != 0) side = of_edge;
   }
   const auto& [a, b, c] = triangle;
@@ -31,7 +31,7 @@ std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, double above, dou
 // Of an edge of a through b, whose normal is given. One that begins at the corner that both share
 // does not go through. Most pairs end at the first test: all of `a` is on one side of b's plane.
 std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& b,
-                                 const Vec3& normal, std::size_t shared_of_a)
+                                 const Vec3& normal, std::size_t shared_of_a, AtRim at_rim)
 {
   std::array<double, 3> above{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -42,14 +42,15 @@ std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& 
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t next = (c + 1) % 3;
     if (above[c] * above[next] >= 0.0) continue;
-    const auto place = piercing(a.corners[c], a.corners[next], above[c], above[next], b.corners);
+    const auto place =
+        piercing(a.corners[c], a.corners[next], above[c], above[next], b.corners, at_rim);
     if (place) return place;
   }
   return std::nullopt;
 }
 
 std::optional<Vec3> crossing(const PlacedTriangle& a, const Vec3& normal_of_a,
-                             const PlacedTriangle& b, const Vec3& normal_of_b)
+                             const PlacedTriangle& b, const Vec3& normal_of_b, AtRim at_rim)
 {
   constexpr std::size_t kNone = 3;
   const bool is_one_patch = a.patch != kNoIndex && a.patch == b.patch;
@@ -63,8 +64,8 @@ std::optional<Vec3> crossing(const PlacedTriangle& a, const Vec3& normal_of_a,
       shared_of_b = j;
     }
   }
-  const auto place = edge_through(a, b, normal_of_b, shared_of_a);
-  return place ? place : edge_through(b, a, normal_of_a, shared_of_b);
+  const auto place = edge_through(a, b, normal_of_b, shared_of_a, at_rim);
+  return place ? place : edge_through(b, a, normal_of_a, shared_of_b, at_rim);
 }
 
 std::vector<PlacedTriangle> placed(const PatchSurface& surface)
@@ -87,13 +88,16 @@ std::vector<Box> boxes_of(std::span<const PlacedTriangle> triangles)
 
 }  // namespace
 
-std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b)
+std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b, AtRim at_rim)
 {
-  return crossing(a, normal_of(a.corners), b, normal_of(b.corners));
+  return crossing(a, normal_of(a.corners), b, normal_of(b.corners), at_rim);
 }
 
-CrossingGuard::CrossingGuard(const PatchSurface& surface, std::vector<Box> guarded)
-    : triangles_(placed(surface)), tree_(boxes_of(triangles_)), guarded_(std::move(guarded))
+CrossingGuard::CrossingGuard(const PatchSurface& surface, std::vector<Box> guarded, AtRim at_rim)
+    : triangles_(placed(surface)),
+      tree_(boxes_of(triangles_)),
+      guarded_(std::move(guarded)),
+      at_rim_(at_rim)
 {
 }
 
@@ -127,9 +131,9 @@ int CrossingGuard::count_near(std::span<const PlacedTriangle> some) const
     for (const Near& other : near_) {
       if (!other.box.touches(box)) continue;
       const PlacedTriangle& found = triangles_[at(other.triangle)];
-      count += crossing(some[i], normal, found, other.normal) ? 1 : 0;
+      count += crossing(some[i], normal, found, other.normal, at_rim_) ? 1 : 0;
     }
-    for (std::size_t j = 0; j < i; ++j) count += crossing(some[i], some[j]) ? 1 : 0;
+    for (std::size_t j = 0; j < i; ++j) count += crossing(some[i], some[j], at_rim_) ? 1 : 0;
   }
   return count;
 }

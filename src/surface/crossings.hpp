@@ -21,9 +21,13 @@ struct PlacedTriangle {
   LocalIndex patch = kNoIndex;
 };
 
-/// @brief Where an edge of one triangle goes through the other, its rim included; nothing if none
-/// does, or if they share an edge. Local.
-[[nodiscard]] std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b);
+/// @brief Whether an edge that meets an edge or a corner of a triangle goes through it.
+enum class AtRim { goes_through, passes };
+
+/// @brief Where an edge of one triangle goes through the other; nothing if none does, or if they
+/// share an edge. Local.
+[[nodiscard]] std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b,
+                                           AtRim at_rim = AtRim::goes_through);
 
 /// @brief A box that holds every point.
 inline constexpr Box kEverywhere{-1.0 * kNoPoint, kNoPoint};
@@ -33,7 +37,8 @@ inline constexpr Box kEverywhere{-1.0 * kNoPoint, kNoPoint};
 class CrossingGuard {
  public:
   /// @param[in] guarded Where changes are looked at.
-  explicit CrossingGuard(const PatchSurface& surface, std::vector<Box> guarded = {kEverywhere});
+  explicit CrossingGuard(const PatchSurface& surface, std::vector<Box> guarded = {kEverywhere},
+                         AtRim at_rim = AtRim::goes_through);
 
   /// @brief Whether changes are looked at that reach a box.
   [[nodiscard]] bool is_at(const Box& box) const;
@@ -67,6 +72,7 @@ class CrossingGuard {
   std::vector<PlacedTriangle> triangles_{};
   BoxTree tree_;
   BoxTree guarded_;
+  AtRim at_rim_;
   std::vector<Near> near_{};  // Of one question; kept for its memory.
 };
 

@@ -38,7 +38,8 @@ Defeaturer::Defeaturer(const PatchSurface& start, const OnCurve& on_curve,
       tolerance_(limits.most()),
       kept_(limits.kept),
       surface_(start, sizes_at(start.vertex_xyz, limits)),
-      guard_(start)
+      // A vertex may come to lie in an edge before it becomes a part of it.
+      guard_(start, {kEverywhere}, AtRim::passes)
 {
 }
 
