@@ -389,7 +389,9 @@ std::vector<mesh::WakeTriangle> find_wakes(mesh::CoarseMesh& mesh,
   for (const LocalIndex entry : entries_of_patches(mesh, options)) {
     patches.push_back({.thickness = entry == kNoIndex ? 0.0 : thickness(options[at(entry)])});
   }
-  if (!keep_tets) divide_at_ridges(find_walls(mesh, patches), mesh);
+  const WallSurface walls = find_walls(mesh, patches);
+  if (find_ridges(mesh, walls).empty()) return {};
+  if (!keep_tets) divide_at_ridges(walls, mesh);
   return WakeFinder(mesh, patches).run(keep_tets);
 }
 

@@ -116,9 +116,7 @@ std::vector<Ridge> find_ridges(const mesh::CoarseMesh& mesh, const WallSurface& 
 void divide_at_ridges(const WallSurface& walls, mesh::CoarseMesh& mesh)
 {
   std::vector<char> is_on_ridge(at(mesh.num_vertices()), 0);
-  const std::vector<Ridge> ridges = find_ridges(mesh, walls);
-  if (ridges.empty()) return;
-  for (const Ridge& ridge : ridges) {
+  for (const Ridge& ridge : find_ridges(mesh, walls)) {
     for (const LocalIndex v : ridge.edge) is_on_ridge[at(v)] = 1;
   }
   const std::set<Edge> on_surface = edges_on_surface(mesh);

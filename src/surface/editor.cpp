@@ -29,8 +29,7 @@ constexpr double kMostBow = 0.2;
 
 // A vertex that moves along a curve may not make the arcs beside it rounder than 125 degrees, by
 // the same measure. Else smoothing slides it past a bend, and edges there lie far off the curve: on
-// a mount of 1,574 faces two vertices were off by two thirds of a bend. With 0.2 hammer.iges got 4
-// % more tets.
+// a mount of 1,574 faces two vertices were 0.14 mm off. With 0.2, G of hammer.iges was 4 % larger.
 constexpr double kMostBowOfMove = 0.3;
 
 // Both parts of a split edge must be shorter than it by this part of the shorter one, or it would

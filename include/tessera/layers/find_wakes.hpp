@@ -22,8 +22,9 @@ namespace tessera::layers {
 /// joints and faces inside, and where several periodic sides meet; and if two columns would not be
 /// steep either. Periodic sides are treated alike.
 ///
-/// Edges that go from wall to wall at a sharp edge, or to a periodic side, are divided first, and
-/// vertices inside that become corners of a wake move into the middle between the walls.
+/// Edges of tets that go from wall to wall at a sharp edge, or to a periodic side, are divided
+/// first. Vertices inside of the material that become corners of a wake move into the middle
+/// between the walls.
 /// @param[in] keep_tets  They are not, and they do not.
 /// @pre mesh::validate() accepts the mesh; it has no layers.
 /// @throws ConfigError as grow_layers().
