@@ -36,11 +36,11 @@ GlobalIndex sum_over(const subdomain::SubdomainRange& range, Count&& count)
 void count_split_tets(const subdomain::PartitionedMesh& cut, int splits,
                       std::vector<number::PieceCounts>& pieces)
 {
-  const auto filled = subdomain::count_subdivided_pieces(cut, cut.levels);
+  const auto split = subdomain::count_subdivided_pieces(cut, cut.levels, splits);
   for (std::size_t s = 0; s < pieces.size(); ++s) {
-    pieces[s].tets = filled[s].tets << 3 * splits;
-    pieces[s].boundary_triangles = filled[s].boundary_triangles << 2 * splits;
-    pieces[s].line_edges = filled[s].line_edges << splits;
+    pieces[s].tets = split[s].tets;
+    pieces[s].boundary_triangles = split[s].boundary_triangles;
+    pieces[s].line_edges = split[s].line_edges;
   }
 }
 

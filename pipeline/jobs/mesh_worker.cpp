@@ -49,7 +49,13 @@ struct Refinement {
   io::OutputOptions output;
   subdomain::PieceRefiner refiner;
   number::IdLayout ids;
+  std::optional<subdomain::LayerTables> layers{};  // After the split, of a mesh with layers.
 };
+
+const subdomain::LayerTables* get(const std::optional<subdomain::LayerTables>& layers)
+{
+  return layers ? &*layers : nullptr;
+}
 
 // State of the model zygote; jobs are forked from it.
 class MeshWorker final : public jobs::Worker {
@@ -86,8 +92,7 @@ class MeshWorker final : public jobs::Worker {
     decomposition_ = std::move(load.decomposition);
     output_ = std::move(load.output);
     cut_.emplace(coarse_, decomposition_, std::move(load.tables));
-    layers_ = subdomain::layer_tables(coarse_, cut_->skeleton,
-                                      mesh::lattice_levels(cut_->skeleton, cut_->levels));
+    layers_ = subdomain::layer_tables(*cut_);
   }
 
   void take(const SegmentLoad& load)
@@ -119,7 +124,8 @@ class MeshWorker final : public jobs::Worker {
     io::OutputOptions output{.compression = load.compression, .cell_quality = load.cell_quality};
     refinement_.emplace(Refinement{load.settings, std::move(output),
                                    subdomain::PieceRefiner(*cut_, load.settings.split),
-                                   number::IdLayout::by_owner(load.settings.counts)});
+                                   number::IdLayout::by_owner(load.settings.counts),
+                                   subdomain::layer_tables(*cut_, load.settings.split.levels)});
   }
 
   [[nodiscard]] static Bytes answer(const ImportRequest& request)
@@ -273,14 +279,14 @@ class MeshWorker final : public jobs::Worker {
                                               .skeleton = cut_->skeleton,
                                               .ids = *ids_,
                                               .length_unit = length_unit_,
-                                              .layers = layers_of_mesh()});
+                                              .layers = get(layers_)});
     }
     BatchFiller batch(task, output_, numbers ? &*numbers : nullptr, output_options_);
     if (regions_ && kernels_[at(task.first)] != fill::KernelKind::subdivide) {
       batch.keep_seams(*regions_);
     }
     for (LocalIndex s = task.first; s < task.last; ++s) {
-      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel, layers_of_mesh()));
+      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel, get(layers_)));
     }
     return std::move(batch).finish();
   }
@@ -308,10 +314,20 @@ class MeshWorker final : public jobs::Worker {
     context.measure_distance = true;
     const mesh::HostLayout hosts(cut_->skeleton);
     const subdomain::WriteContext numbers{
-        coarse_, cut_->skeleton, to.ids, to.settings.length_unit, [&](const mesh::Piece& piece) {
-          return subdomain::places_of_split_piece(piece, hosts,
-                                                  to.settings.counts[at(piece.subdomain)]);
-        }};
+        .coarse = coarse_,
+        .skeleton = cut_->skeleton,
+        .ids = to.ids,
+        .length_unit = to.settings.length_unit,
+        .places_of =
+            [&](const mesh::Piece& piece) {
+              return subdomain::places_of_split_piece(piece, hosts,
+                                                      to.settings.counts[at(piece.subdomain)]);
+            },
+        .places_of_names =
+            [&](std::span<const mesh::HostPoint> names) {
+              return subdomain::places_of_split_names(names, hosts);
+            },
+        .layers = get(to.layers)};
     PieceBatch batch({.output = output_,
                       .record = refined_name(task.batch),
                       .file = task.batch,
@@ -321,7 +337,7 @@ class MeshWorker final : public jobs::Worker {
     RefineTaskResult made;
     for (const PieceToRefine& one : task.pieces) {
       subdomain::RefinedPiece refined =
-          to.refiner.refine(one.piece, one.around, context, one.before);
+          to.refiner.refine(one.piece, one.around, context, one.before, get(to.layers));
       made.folds.insert(made.folds.end(), refined.folds.begin(), refined.folds.end());
       batch.add(std::move(refined.filled));
     }
@@ -343,11 +359,6 @@ class MeshWorker final : public jobs::Worker {
                                            cut_->skeleton, subdomain);
     return {.vertex_xyz = std::move(skin.vertex_xyz),
             .triangle_vertices = std::move(skin.triangle_vertices)};
-  }
-
-  [[nodiscard]] const subdomain::LayerTables* layers_of_mesh() const
-  {
-    return layers_ ? &*layers_ : nullptr;
   }
 
   [[nodiscard]] refine::RefineContext refine_context(const mesh::ProjectionLimiter& limiter) const

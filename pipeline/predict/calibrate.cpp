@@ -256,8 +256,7 @@ class Sampler {
       counts[at(piece.subdomain)] = subdomain::counts_of(piece);
     const auto ids = number::IdLayout::by_host(
         mesh::HostLayout(cut.skeleton), mesh::lattice_levels(cut.skeleton, cut.levels), counts);
-    const auto layers = subdomain::layer_tables(cut.coarse, cut.skeleton,
-                                                mesh::lattice_levels(cut.skeleton, cut.levels));
+    const auto layers = subdomain::layer_tables(cut);
     const subdomain::WriteContext mesh{.coarse = cut.coarse,
                                        .skeleton = cut.skeleton,
                                        .ids = ids,

@@ -6,6 +6,7 @@
 #include "tessera/io/record_store.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
 
@@ -21,7 +22,9 @@ namespace tessera::pipeline {
 class PieceSurfaces {
  public:
   /// @brief The mesh is borrowed.
-  PieceSurfaces(PieceStore pieces, const subdomain::PartitionedMesh& cut);
+  /// @param[in] layers With the split, borrowed; null without layers.
+  PieceSurfaces(PieceStore pieces, const subdomain::PartitionedMesh& cut,
+                const subdomain::LayerTables* layers);
 
   void keep_list(LocalIndex subdomain) const;
 
@@ -37,10 +40,15 @@ class PieceSurfaces {
   // What parts a body but lies on no face is a seam for the split: both sides move there.
   [[nodiscard]] LocalIndex body_of(LocalIndex subdomain) const;
 
+  [[nodiscard]] std::vector<LocalIndex> beyond_joints(LocalIndex subdomain) const;
+  void place_ends(LocalIndex n, subdomain::PieceSurroundings& around) const;
+
   io::RecordStore store_;
   const subdomain::PartitionedMesh& cut_;
   PieceStore pieces_;
   std::vector<std::vector<LocalIndex>> neighbours_;  ///< By subdomain, ascending.
+  const subdomain::LayerTables* layers_;
+  std::vector<std::vector<LocalIndex>> across_;  ///< By subdomain, across joints; ascending.
 };
 
 }  // namespace tessera::pipeline

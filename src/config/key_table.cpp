@@ -184,9 +184,8 @@ constexpr Key kOtherKeys[] = {
                 "\"optimize\", and seams improved. For the others tets are split into eight and "
                 "smoothed, which is many times as fast. More than refine.levels is all of them. "
                 "\"auto\" leaves two for the split, but fills on two at least; it is all with "
-                "output.order = 2 and with [[layer]]. Where edges have levels of their own, fewer "
-                "are left for the split if "
-                "it would make a tenth more tets.",
+                "output.order = 2. Where edges have levels of their own, fewer are left for the "
+                "split if it would make a tenth more tets.",
      .reason = "from three levels on, the split mesh is better in mean and 1st percentile, and "
                "comes many times as fast"},
     {.name = "fill.split_corners",

@@ -326,13 +326,11 @@ void complete_layers(Case& loaded, const std::string& where)
   }
 }
 
-// Columns stand on the lattice of the coarse walls, which a split no longer has. A surface that is
-// made smooth knows only the points of its own triangles.
+// A surface that is made smooth knows only the points of its own triangles.
 void check_layers(const Case& loaded, const std::string& where)
 {
   if (loaded.layers.empty()) return;
   const std::string_view other = loaded.output.order == 2 ? "output.order = 2"
-                                 : asks_for_split(loaded) ? "fill.levels below refine.levels"
                                  : loaded.geometry.smooth ? "geometry.smooth"
                                  : loaded.decompose.method == decompose::Method::geometry
                                      ? "decompose.method = \"geometry\""

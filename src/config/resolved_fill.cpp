@@ -19,8 +19,7 @@ fill::FillOptions resolved_fill(const Case& given, bool is_partial)
   fill::FillOptions fill = given.fill;
   const bool is_wanted = std::ranges::any_of(given.output.formats, wants_no_corner_tets);
   if (!fill.split_corners && (is_wanted || is_partial)) fill.split_corners = !is_partial;
-  const bool needs_all_levels = given.output.order == 2 || !given.layers.empty();
-  if (fill.levels == 0 && needs_all_levels) fill.levels = fill::kAllLevels;
+  if (fill.levels == 0 && given.output.order == 2) fill.levels = fill::kAllLevels;
   return fill;
 }
 

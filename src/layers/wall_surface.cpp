@@ -274,8 +274,27 @@ class WallFinder {
     }
     across = unit(across);
     for (Vec3& normal : inward) normal = unit(normal - dot(normal, across) * across);
-    const Vec3 direction = best_direction(inward);
-    return unit(direction - dot(direction, across) * across);
+    const Vec3 best = best_direction(inward);
+    const Vec3 direction = unit(best - dot(best, across) * across);
+    return goes_over_sides(vertex.vertex, around, direction) ? direction : Vec3{};
+  }
+
+  // Whether a direction along the triangles without layers leads onto one of them. Else the wall
+  // ends at an edge that the material goes around.
+  [[nodiscard]] bool goes_over_sides(LocalIndex vertex, std::span<const LocalIndex> around,
+                                     const Vec3& direction) const
+  {
+    return std::ranges::any_of(around, [&](LocalIndex row) {
+      const SurfaceTriangle& triangle = surface_.triangles[at(row)];
+      const auto& v = triangle.vertices;
+      if (triangle.is_wall) return false;
+      const auto c = static_cast<std::size_t>(std::ranges::find(v, vertex) - v.begin());
+      const Vec3 here = mesh_.position(vertex);
+      const Vec3 first = mesh_.position(v[(c + 1) % 3]) - here;
+      const Vec3 last = mesh_.position(v[(c + 2) % 3]) - here;
+      return dot(cross(first, direction), triangle.normal) >= 0.0
+             && dot(cross(direction, last), triangle.normal) >= 0.0;
+    });
   }
 
   [[nodiscard]] model::SurfaceParameters parameters_of(LocalIndex face, LocalIndex vertex) const

@@ -2,6 +2,7 @@
 #include "tessera/mesh/triangle_grading.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace tessera::mesh {
 
@@ -45,6 +46,40 @@ TriangleGrading triangle_grading(const Skeleton& skeleton, const CoarseMesh& coa
     levels[side] = of_skeleton.edge(e);
   }
   return TriangleGrading::of(ranks, levels);
+}
+
+// Inner corners and sides of the small triangles by Euler's formula.
+LocalIndex num_inner_split_points(const TriangleGrading& grading, LocalIndex parts)
+{
+  const LocalIndex n = lattice::intervals(grading.level);
+  const auto num_finer = static_cast<LocalIndex>(std::popcount(grading.finer));
+  const LocalIndex num_triangles = n * n + num_finer * n;
+  const LocalIndex num_outer_edges = 3 * n + num_finer * n;
+  const LocalIndex num_inner_edges = (3 * num_triangles - num_outer_edges) / 2;
+  return lattice::num_inner_triangle_points(n)
+         + num_inner_edges * lattice::num_inner_edge_points(parts)
+         + num_triangles * lattice::num_inner_triangle_points(parts);
+}
+
+SplitPointNumbers::SplitPointNumbers(const TriangleGrading& grading, LocalIndex parts)
+    : n_(parts * grading.finest_intervals()),
+      number_(at(lattice::num_inner_triangle_points(n_)), kNoIndex)
+{
+  using lattice::TrianglePoint;
+  const auto mark = [&](const TrianglePoint& p) {
+    const bool is_inside = p.i > 0 && p.j > 0 && p.i + p.j < n_;
+    if (is_inside) number_[at(lattice::inner_triangle_index(n_, p.i, p.j))] = 0;
+  };
+  for_each_split_triangle(
+      grading, parts, [&](const TrianglePoint& a, const TrianglePoint& b, const TrianglePoint& c) {
+        mark(a);
+        mark(b);
+        mark(c);
+      });
+  LocalIndex next = 0;
+  for (LocalIndex& number : number_) {
+    if (number != kNoIndex) number = next++;
+  }
 }
 
 }  // namespace tessera::mesh

@@ -43,8 +43,8 @@ GlobalIndex first_point(const SurfaceSimplices& owned, HostKind kind, LocalIndex
 
 // Every simplex of one kind has one owner: who finds it, places it.
 template <class Key>
-std::vector<SimplexPlace> place(const std::vector<Key>& own, std::span<const OwnedSurface> owners,
-                                List<Key> list, HostKind kind, LocalIndex n)
+std::vector<SimplexPlace> find(const std::vector<Key>& own, std::span<const OwnedSurface> owners,
+                               List<Key> list, HostKind kind, LocalIndex n)
 {
   std::vector<SimplexPlace> places(own.size());
   const LocalIndex points_each = mesh::num_points_of_host(kind, n);
@@ -60,13 +60,15 @@ std::vector<SimplexPlace> place(const std::vector<Key>& own, std::span<const Own
       places[k] = {owner.subdomain, first + row * points_each};
     }
   }
+  return places;
+}
+
+void require_owners(const std::vector<SimplexPlace>& places, const char* what)
+{
   const auto lost = std::ranges::find(places, kNoIndex, &SimplexPlace::owner);
-  if (lost == places.end()) return places;
-  throw MeshError(fmt::format("nobody owns {} {} of a piece's surface",
-                              kind == HostKind::vertex ? "vertex"
-                              : kind == HostKind::edge ? "edge"
-                                                       : "triangle",
-                              lost - places.begin()));
+  if (lost == places.end()) return;
+  throw MeshError(
+      fmt::format("nobody owns {} {} of a piece's surface", what, lost - places.begin()));
 }
 
 }  // namespace
@@ -89,9 +91,19 @@ SharedSurface compare_surfaces(const SurfaceList& own, std::span<const SurfaceLi
 SurfacePlaces place_surface(const SurfaceSimplices& own, std::span<const OwnedSurface> owners,
                             LocalIndex n)
 {
-  return {place(own.vertices, owners, &SurfaceSimplices::vertices, HostKind::vertex, n),
-          place(own.edges, owners, &SurfaceSimplices::edges, HostKind::edge, n),
-          place(own.triangles, owners, &SurfaceSimplices::triangles, HostKind::triangle, n)};
+  SurfacePlaces places = find_places(own, owners, n);
+  require_owners(places.vertices, "vertex");
+  require_owners(places.edges, "edge");
+  require_owners(places.triangles, "triangle");
+  return places;
+}
+
+SurfacePlaces find_places(const SurfaceSimplices& simplices, std::span<const OwnedSurface> owners,
+                          LocalIndex n)
+{
+  return {find(simplices.vertices, owners, &SurfaceSimplices::vertices, HostKind::vertex, n),
+          find(simplices.edges, owners, &SurfaceSimplices::edges, HostKind::edge, n),
+          find(simplices.triangles, owners, &SurfaceSimplices::triangles, HostKind::triangle, n)};
 }
 
 }  // namespace tessera::number

@@ -17,6 +17,7 @@
 #include "subdomain/files/boundary_triangles.hpp"
 #include "subdomain/files/line_edges.hpp"
 #include "subdomain/layers/layer_columns.hpp"
+#include "subdomain/layers/measure_layers.hpp"
 #include "subdomain/refine/piece_schedule.hpp"
 
 namespace tessera::subdomain {
@@ -144,41 +145,6 @@ RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine
   return raw;
 }
 
-// What layers stand on, without the tets and the vertices inside, which are many.
-mesh::Piece without_tets(const mesh::Piece& piece)
-{
-  const auto end_of_skin = piece.vertex_xyz.begin() + 3 * std::ptrdiff_t{piece.num_skin_vertices()};
-  return {.subdomain = piece.subdomain,
-          .vertex_xyz = {piece.vertex_xyz.begin(), end_of_skin},
-          .skin_host = piece.skin_host,
-          .skin_index = piece.skin_index,
-          .boundary_vertices = piece.boundary_vertices,
-          .boundary_patch = piece.boundary_patch,
-          .boundary_tet = piece.boundary_tet,
-          .columns = piece.columns};
-}
-
-// Of a piece with layers, and of its patches, which lie in front of them. Layers that are not
-// positive are folds, whatever has filled the piece.
-void measure_layers(const LayerTables& tables, FilledPiece& filled)
-{
-  const LayeredPiece layered = with_layers(without_tets(filled.piece), tables);
-  PieceSummary& summary = filled.result.summary;
-  for (LocalIndex t = 0; t < layered.piece.num_tets(); ++t) {
-    const auto& [a, b, c, d] = layered.piece.corners(t);
-    const double volume = tet_volume(a, b, c, d);
-    summary.is_folded = summary.is_folded || !(volume > 0.0);
-    summary.layers.volume += volume;
-  }
-  summary.boundary_area += layered.outside_area;
-  summary.layers.num_tets = layered.piece.num_tets();
-  summary.layers.num_cells = std::ranges::count(layered.tet_of_prism, 0);
-  summary.num_boundary = std::ranges::count_if(
-      filled.piece.boundary_patch, [&](LocalIndex patch) { return !tables.is_hidden(patch); });
-  summary.layers.num_side_triangles = layered.piece.num_boundary() - summary.num_boundary;
-  summary.patches = patch_areas(layered.piece);
-}
-
 FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain,
                               const LayerTables* layers, RawFill& raw)
 {
@@ -201,7 +167,7 @@ FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain,
   summary.held_back_distance = raw.distance.largest_held_back;
   summary.volume = facts.volume;
   piece.columns = std::move(raw.columns);
-  if (layers != nullptr) measure_layers(*layers, filled);
+  if (layers != nullptr) measure_layers(filled.piece, *layers, summary);
   return filled;
 }
 

@@ -6,8 +6,6 @@
 #include <map>
 #include <span>
 
-#include "tessera/mesh/triangle_grading.hpp"
-
 namespace tessera::subdomain {
 namespace {
 
@@ -166,8 +164,7 @@ class MidpointLattice {
 
 TrianglePoint GeometryPlace::point(LocalIndex n, LocalIndex i, LocalIndex j) const
 {
-  const auto& [a, b, c] = corners;
-  return {n * a.i + i * (b.i - a.i) + j * (c.i - a.i), n * a.j + i * (b.j - a.j) + j * (c.j - a.j)};
+  return lattice::SmallTriangle{corners[0], corners[1], corners[2]}.point(n, {i, j});
 }
 
 GeometryFinder::GeometryFinder(const PartitionedMesh& cut)
@@ -201,19 +198,16 @@ std::vector<LocalIndex> GeometryFinder::triangles_around(
 mesh::HostPoint GeometryFinder::name_of(LocalIndex triangle, LocalIndex n,
                                         const TrianglePoint& p) const
 {
-  const LocalIndex* vertices = &skeleton_.triangle_vertices[3 * at(triangle)];
-  if (p.i == n) return {hosts_.vertex(vertices[1]), 0};
-  if (p.j == n) return {hosts_.vertex(vertices[2]), 0};
-  if (p.i + p.j == 0) return {hosts_.vertex(vertices[0]), 0};
-  const auto on_edge = [&](std::size_t side, LocalIndex k) -> mesh::HostPoint {
-    const LocalIndex e = skeleton_.triangle_edges[3 * at(triangle) + side];
+  const auto [part, row, k] = lattice::place_of(n, p);
+  if (part == lattice::PointPlace::Part::corner) {
+    return {hosts_.vertex(skeleton_.triangle_vertices[3 * at(triangle) + row]), 0};
+  }
+  if (part == lattice::PointPlace::Part::side) {
+    const LocalIndex e = skeleton_.triangle_edges[3 * at(triangle) + row];
     const LocalIndex step = n / levels_.edge_intervals(e);
     if (k % step != 0) return {kNoIndex, 0};
     return {hosts_.edge(e), k / step - 1};
-  };
-  if (p.j == 0) return on_edge(0, p.i);
-  if (p.i == 0) return on_edge(1, p.j);
-  if (p.i + p.j == n) return on_edge(2, p.j);
+  }
   const LocalIndex own = levels_.triangle_intervals(triangle);
   const LocalIndex step = n / own;
   if (p.i % step != 0 || p.j % step != 0) return {kNoIndex, 0};
@@ -231,8 +225,7 @@ void GeometryFinder::place_lattice(LocalIndex row, const mesh::Complex& complex,
                                    GeometryPlaces& places) const
 {
   const LocalIndex triangle = places.triangles[at(row)];
-  const mesh::TriangleGrading grading =
-      mesh::triangle_grading(skeleton_, coarse_, levels_, triangle);
+  const mesh::TriangleGrading grading = grading_of(triangle);
   const LocalIndex n = grading.finest_intervals();
   std::vector<LatticeVertex> vertices(at(lattice::num_triangle_points(n)));
   for (LocalIndex j = 0; j <= n; ++j) {
@@ -305,11 +298,11 @@ mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
 mesh::LatticePointKey key_of(const mesh::Skeleton& skeleton, LocalIndex triangle, LocalIndex n,
                              const TrianglePoint& p)
 {
-  const LocalIndex* edges = &skeleton.triangle_edges[3 * at(triangle)];
-  if (p.j == 0) return mesh::LatticePointKey::on_edge(edges[0], n, p.i);
-  if (p.i == 0) return mesh::LatticePointKey::on_edge(edges[1], n, p.j);
-  if (p.i + p.j == n) return mesh::LatticePointKey::on_edge(edges[2], n, p.j);
-  return mesh::LatticePointKey::on_triangle(triangle, n, p);
+  const auto [part, row, k] = lattice::place_of(n, p);
+  if (part == lattice::PointPlace::Part::inside) {
+    return mesh::LatticePointKey::on_triangle(triangle, n, p);
+  }
+  return mesh::LatticePointKey::on_edge(skeleton.triangle_edges[3 * at(triangle) + row], n, k);
 }
 
 }  // namespace tessera::subdomain

@@ -15,6 +15,7 @@
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
+#include "tessera/mesh/triangle_grading.hpp"
 
 #include "subdomain/files/line_edges.hpp"
 
@@ -56,6 +57,15 @@ class GeometryFinder {
 
   // Level of the lattice of a skeleton triangle in which corners stand: that of its finest side.
   [[nodiscard]] int level_of(LocalIndex triangle) const;
+
+  // Of an edge of the skeleton.
+  [[nodiscard]] int level_of_edge(LocalIndex edge) const { return levels_.edge(edge); }
+
+  // What the small triangles of a skeleton triangle are a function of.
+  [[nodiscard]] mesh::TriangleGrading grading_of(LocalIndex triangle) const
+  {
+    return mesh::triangle_grading(skeleton_, coarse_, levels_, triangle);
+  }
 
  private:
   [[nodiscard]] std::vector<LocalIndex> triangles_around(

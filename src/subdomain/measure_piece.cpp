@@ -204,8 +204,8 @@ FillResult measure_improved_part(const improve::PiecePart& part, const std::vect
 }
 
 FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
-                               const mesh::Skeleton& surface, const std::vector<char>& on_seam,
-                               const PieceSummary& before)
+                               const mesh::Skeleton& surface, const mesh::SideImages& images,
+                               const std::vector<char>& on_seam, const PieceSummary& before)
 {
   FillResult result;
   PieceSummary& summary = result.summary;
@@ -215,7 +215,7 @@ FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
   summary.num_boundary = piece.num_boundary();
   summary.patches = patch_areas(piece);
   summary.lines = line_lengths(piece);
-  summary.boundary_area = outside_area(skin, surface, {});
+  summary.boundary_area = outside_area(skin, surface, images);
   summary.outside = verify::outside_hash(skin, surface);
   summary.surface = verify::surface_hash(skin);
   measure_edges(piece, result.histograms);

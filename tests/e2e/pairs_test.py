@@ -50,7 +50,7 @@ WISHES = {
 # The pairs that exclude each other, as docs/user_guide.md has them.
 REFUSED = {
     "periodic × planes", "periodic × gmsh", "layers × well", "layers × order 2",
-    "layers × split after the fill", "layers × planes", "fault × planes", "fault × gmsh", "crack × planes", "crack × gmsh",
+    "layers × planes", "fault × planes", "fault × gmsh", "crack × planes", "crack × gmsh",
     "well × planes", "well × gmsh", "order 2 × split after the fill", "order 2 × openfoam", "planes × gmsh",
 }  # fmt: skip
 

@@ -55,6 +55,42 @@ struct TrianglePoint {
   LocalIndex j = 0;
 };
 
+/// @brief Where a point of a triangle lies.
+struct PointPlace {
+  enum class Part { corner, side, inside };
+  Part part = Part::inside;
+  std::size_t row = 0;   ///< Of the corner or side.
+  LocalIndex steps = 0;  ///< On a side: k of side_point().
+};
+
+[[nodiscard]] constexpr PointPlace place_of(LocalIndex n, const TrianglePoint& p) noexcept
+{
+  using Part = PointPlace::Part;
+  if (p.i + p.j == 0) return {Part::corner, 0};
+  if (p.i == n) return {Part::corner, 1};
+  if (p.j == n) return {Part::corner, 2};
+  if (p.j == 0) return {Part::side, 0, p.i};
+  if (p.i == 0) return {Part::side, 1, p.j};
+  if (p.i + p.j == n) return {Part::side, 2, p.j};
+  return {};
+}
+
+/// @brief A triangle between three points of a lattice.
+struct SmallTriangle {
+  TrianglePoint a{};
+  TrianglePoint b{};
+  TrianglePoint c{};
+
+  /// @brief Point p of its own lattice with `parts` intervals, in the lattice of its corners with
+  /// `parts` times as many intervals.
+  [[nodiscard]] constexpr TrianglePoint point(LocalIndex parts,
+                                              const TrianglePoint& p) const noexcept
+  {
+    return {parts * a.i + p.i * (b.i - a.i) + p.j * (c.i - a.i),
+            parts * a.j + p.i * (b.j - a.j) + p.j * (c.j - a.j)};
+  }
+};
+
 /// @brief The inner point at a place: the inverse of inner_triangle_index().
 [[nodiscard]] constexpr TrianglePoint inner_triangle_point(LocalIndex n, LocalIndex index) noexcept
 {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -18,10 +20,26 @@ struct Columns {
   std::vector<HostPoint> vertices{};  ///< Shape (num_columns), ascending.
   std::vector<double> point_xyz{};    ///< Shape (num_columns, most_layers, 3), towards the wall;
                                       ///< where layers are missing, the end of the column.
+  // Of a piece that was split; else empty.
+  std::vector<HostPoint> skin_names{};  ///< Shape (num_skin_vertices): what layers call them, for
+                                        ///< the names that owners give say nothing of walls.
+  std::vector<HostPoint> ends{};        ///< Shape (num_columns): where it ends at tets across a
+                                        ///< joint, the name that their owner gives.
 
-  static auto fields(auto& self) { return std::tie(self.vertices, self.point_xyz); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.vertices, self.point_xyz, self.skin_names, self.ends);
+  }
 
-  [[nodiscard]] LocalIndex size() const { return static_cast<LocalIndex>(vertices.size()); }
+  /// @brief The row of the column over a vertex; size() if there is none. O(log n).
+  [[nodiscard]] std::size_t row_of(const HostPoint& vertex) const
+  {
+    const auto found = std::ranges::lower_bound(vertices, vertex);
+    const bool is_there = found != vertices.end() && *found == vertex;
+    return static_cast<std::size_t>((is_there ? found : vertices.end()) - vertices.begin());
+  }
+
+  [[nodiscard]] std::size_t size() const { return vertices.size(); }
 };
 
 /// @brief The tets of one subdomain, finished and immutable.
@@ -69,6 +87,11 @@ struct Piece {
   [[nodiscard]] HostPoint skin_point(LocalIndex v) const
   {
     return {skin_host[at(v)], skin_index[at(v)]};
+  }
+  /// @brief What layers call skin vertex `v`.
+  [[nodiscard]] HostPoint name_in_layers(LocalIndex v) const
+  {
+    return columns.skin_names.empty() ? skin_point(v) : columns.skin_names[at(v)];
   }
   [[nodiscard]] LocalIndex num_tets() const { return count(tet_vertices.size(), 4); }
   [[nodiscard]] LocalIndex num_boundary() const { return count(boundary_patch.size(), 1); }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -73,5 +74,43 @@ void for_each_graded_triangle(const TriangleGrading& grading, Visit&& visit)
   };
   lattice::for_each_small_triangle(n, 2, cut);
 }
+
+/// @brief The same once each of these triangles was split into `parts`^2 equal ones. Points are in
+/// the lattice with `parts` times finest_intervals().
+template <class Visit>
+void for_each_split_triangle(const TriangleGrading& grading, LocalIndex parts, Visit&& visit)
+{
+  using lattice::TrianglePoint;
+  for_each_graded_triangle(
+      grading, [&](const TrianglePoint& a, const TrianglePoint& b, const TrianglePoint& c) {
+        const lattice::SmallTriangle small{a, b, c};
+        lattice::for_each_small_triangle(
+            parts, 1, [&](const TrianglePoint& p, const TrianglePoint& q, const TrianglePoint& r) {
+              visit(small.point(parts, p), small.point(parts, q), small.point(parts, r));
+            });
+      });
+}
+
+/// @brief Points inside of the coarse triangle after such a split: a closed form.
+[[nodiscard]] LocalIndex num_inner_split_points(const TriangleGrading& grading, LocalIndex parts);
+
+/// @brief Dense numbers of these points, in the order of their places in the lattice.
+class SplitPointNumbers {
+ public:
+  SplitPointNumbers(const TriangleGrading& grading, LocalIndex parts);
+
+  /// @brief Intervals of the lattice.
+  [[nodiscard]] LocalIndex intervals() const { return n_; }
+
+  /// @pre The point lies inside of the coarse triangle, and the split has it.
+  [[nodiscard]] LocalIndex of(const lattice::TrianglePoint& p) const
+  {
+    return number_[at(lattice::inner_triangle_index(n_, p.i, p.j))];
+  }
+
+ private:
+  LocalIndex n_;
+  std::vector<LocalIndex> number_;  ///< Shape (num_inner_triangle_points(n)); kNoIndex: none.
+};
 
 }  // namespace tessera::mesh

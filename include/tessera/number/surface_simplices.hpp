@@ -88,4 +88,8 @@ struct SurfacePlaces {
 [[nodiscard]] SurfacePlaces place_surface(const SurfaceSimplices& own,
                                           std::span<const OwnedSurface> owners, LocalIndex n);
 
+/// @brief The same of any simplices; those that none of the owners has get no owner.
+[[nodiscard]] SurfacePlaces find_places(const SurfaceSimplices& simplices,
+                                        std::span<const OwnedSurface> owners, LocalIndex n);
+
 }  // namespace tessera::number

@@ -11,8 +11,9 @@ namespace tessera::subdomain {
 
 /// @brief What all subdomains will hold if each is subdivided: closed forms, no piece is made.
 /// Local.
+/// @param[in] splits On how many levels all is split afterwards. Vertices are those before that.
 [[nodiscard]] std::vector<number::PieceCounts> count_subdivided_pieces(
-    const PartitionedMesh& cut, const mesh::EdgeLevels& levels);
+    const PartitionedMesh& cut, const mesh::EdgeLevels& levels, int splits = 0);
 
 /// @brief What finished pieces hold. Local.
 [[nodiscard]] number::PieceCounts counts_of(const PieceSummary& piece);

@@ -10,10 +10,12 @@
 #include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 
 /// Layers on walls as parts of pieces: which points and cells there are, and their places among all
-/// others. Points are counted under the host entity of the vertex that their column stands on. At a
-/// joint the copies of a vertex end at one point: that of the copy without a column, or of the
+/// others. Points are counted under the host entity of the vertex that their column stands on. In a
+/// triangle of the skeleton that was split, vertices have the numbers of mesh::SplitPointNumbers.
+/// At a joint the copies of a vertex end at one point: that of the copy without a column, or of the
 /// lowest one.
 namespace tessera::subdomain {
 
@@ -41,10 +43,11 @@ struct LayerSide {
 /// @brief Counts of all layers, in closed form. Made by every process for itself.
 class LayerTables {
  public:
-  /// @param[in] coarse, skeleton Borrowed. @param[in] levels Of the skeleton.
+  /// @param[in] coarse, skeleton Borrowed. @param[in] levels Of the skeleton, on which pieces are
+  /// filled. @param[in] splits On how many levels they are split afterwards.
   /// @pre The mesh has layers.
   LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
-              const mesh::LatticeLevels& levels);
+              const mesh::LatticeLevels& levels, int splits = 0);
 
   /// @brief Of any column, the most.
   [[nodiscard]] LocalIndex most_layers() const { return coarse_->layers.most_layers; }
@@ -70,6 +73,15 @@ class LayerTables {
   [[nodiscard]] mesh::HostEntity end_host(mesh::HostEntity host) const
   {
     return end_host_[at(host)];
+  }
+
+  /// @brief Where the column over a vertex ends, if that is at tets on the other side of a joint;
+  /// else the vertex itself. @param[in] vertex Any; only the skeleton's have columns.
+  [[nodiscard]] mesh::HostPoint end_at_tets(const mesh::HostPoint& vertex) const
+  {
+    const bool ends_there = vertex.host < hosts_.num_on_skeleton() && has_columns(vertex.host)
+                            && !has_columns(end_host(vertex.host));
+    return ends_there ? mesh::HostPoint{end_host(vertex.host), vertex.index} : vertex;
   }
 
   /// @brief Number of the first point of a column among them, next to the tets; the others follow.
@@ -107,10 +119,10 @@ class LayerTables {
   [[nodiscard]] LocalIndex owner(mesh::HostEntity host) const { return column_owner_[at(host)]; }
 
   /// @brief Whether columns of other hosts end at the points of a host that has none.
-  /// @param[in] host Any; only the skeleton's are such.
+  /// @param[in] host Any, or kNoIndex; only the skeleton's are such.
   [[nodiscard]] bool is_end_elsewhere(mesh::HostEntity host) const
   {
-    return host < hosts_.num_on_skeleton() && !has_columns(host)
+    return host != kNoIndex && host < hosts_.num_on_skeleton() && !has_columns(host)
            && end_owner_[at(host)] != kNoIndex;
   }
 
@@ -129,6 +141,8 @@ class LayerTables {
   void find_owners_of_ends();
   void mark_inner_sides(LocalIndex triangle);
   void count_cells(const mesh::LatticeLevels& levels);
+  [[nodiscard]] LocalIndex num_columns_in(LocalIndex triangle,
+                                          const mesh::LatticeLevels& levels) const;
   [[nodiscard]] GlobalIndex num_tets_on(LocalIndex triangle,
                                         const mesh::LatticeLevels& levels) const;
   [[nodiscard]] GlobalIndex num_tets_of_layer(LocalIndex triangle,
@@ -144,6 +158,7 @@ class LayerTables {
 
   const mesh::CoarseMesh* coarse_;
   const mesh::Skeleton* skeleton_;
+  LocalIndex parts_;  ///< Of a small edge: intervals of its split.
   mesh::HostLayout hosts_;
   std::vector<LocalIndex> num_layers_{};     ///< Shape (num_on_skeleton).
   std::vector<GlobalIndex> first_point_{0};  ///< Shape (num_on_skeleton + 1).
@@ -155,10 +170,15 @@ class LayerTables {
   std::vector<LayerCounts> counts_{};    ///< Shape (num_subdomains).
 };
 
-/// @brief The tables of a mesh with layers; none without. Local.
+/// @brief The tables of a mesh with layers; none without. Local. Arguments are those of
+/// LayerTables.
 [[nodiscard]] std::optional<LayerTables> layer_tables(const mesh::CoarseMesh& coarse,
                                                       const mesh::Skeleton& skeleton,
-                                                      const mesh::LatticeLevels& levels);
+                                                      const mesh::LatticeLevels& levels,
+                                                      int splits = 0);
+
+/// @brief The same of a mesh that is cut, on the levels that pieces are filled on.
+[[nodiscard]] std::optional<LayerTables> layer_tables(const PartitionedMesh& cut, int splits = 0);
 
 /// @brief A piece with its layers.
 struct LayeredPiece {

@@ -49,10 +49,12 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, Fi
 /// distances to the model. The Euler characteristic stays that of the fill: a piece that has
 /// exchanged tets may have another one. Local.
 /// @param[in] skin Of the piece; `surface` has the parents of its triangles.
+/// @param[in] images Of the coarse mesh.
 /// @param[in] on_seam Shape (num_skin_vertices): whether tets there are seam tets.
 /// @param[in] before The summary of the piece before it was split.
 [[nodiscard]] FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
                                              const mesh::Skeleton& surface,
+                                             const mesh::SideImages& images,
                                              const std::vector<char>& on_seam,
                                              const PieceSummary& before);
 

@@ -10,6 +10,7 @@
 #include "tessera/number/surface_simplices.hpp"
 #include "tessera/refine/lattice_refiner.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
 
@@ -21,6 +22,7 @@ struct PieceSurroundings {
   number::SurfaceList surface{};   ///< surface_of() it.
   number::SharedSurface shared{};  ///< What its neighbours have of that.
   number::SurfacePlaces places{};  ///< Who numbers it.
+  number::SurfacePlaces ends{};    ///< The same of ends_across_joints(), if there are any.
   std::vector<mesh::Piece>
       halos{};              ///< halo_beside() it of all neighbours of its material; ascending.
   bool is_smoothed = true;  ///< Else new vertices off the geometry are midpoints. The same
@@ -28,7 +30,8 @@ struct PieceSurroundings {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.surface, self.shared, self.places, self.halos, self.is_smoothed);
+    return std::tie(self.surface, self.shared, self.places, self.ends, self.halos,
+                    self.is_smoothed);
   }
 };
 
@@ -67,12 +70,13 @@ class PieceRefiner {
 
   /// @param[in] refine Made from the arrays of the same mesh. Its levels do not count.
   /// @param[in] before What is known of the piece.
+  /// @param[in] layers With the split, of a mesh with layers; null without.
   /// @throws MeshError if the result breaks a promise of fill::check_fill(). GeometryError if a
   /// projection fails.
   /// @note Local; a pure function of its arguments.
   [[nodiscard]] RefinedPiece refine(const mesh::Piece& piece, const PieceSurroundings& around,
-                                    const refine::RefineContext& refine,
-                                    const PieceSummary& before) const;
+                                    const refine::RefineContext& refine, const PieceSummary& before,
+                                    const LayerTables* layers = nullptr) const;
 
  private:
   struct State;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/mesh/orbits.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -62,7 +64,8 @@ class StageWork {
         context_(context),
         stage_(stage),
         pieces_(store_of(filled, context.folder)),
-        surfaces_(pieces_, work.cut),
+        layers_(subdomain::layer_tables(work.cut, work.split.levels)),
+        surfaces_(pieces_, work.cut, layers_ ? &*layers_ : nullptr),
         neighbours_(mesh::neighbours_by_vertex(work.cut.skeleton)),
         origin_(comm::on_root(context.comm, [&] { return origin_of(work, filled); }))
   {
@@ -183,6 +186,7 @@ class StageWork {
   RunContext& context_;
   StageScope& stage_;
   PieceStore pieces_;
+  std::optional<subdomain::LayerTables> layers_;  // After the split.
   PieceSurfaces surfaces_;
   std::vector<std::vector<LocalIndex>> neighbours_;
   Hash128 origin_;

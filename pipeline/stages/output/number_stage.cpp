@@ -37,8 +37,13 @@ std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of
 }
 
 std::function<std::vector<subdomain::VertexPlace>(std::span<const mesh::HostPoint>)>
-places_of_names(const RunResult& run)
+places_of_names(const RunResult& run, const subdomain::PartitionedMesh& cut)
 {
+  if (run.filled.are_refined) {
+    return [hosts = mesh::HostLayout(cut.skeleton)](std::span<const mesh::HostPoint> names) {
+      return subdomain::places_of_split_names(names, hosts);
+    };
+  }
   if (!run.filled.improvement.pieces) return {};
   return [pieces = run.filled.improvement.pieces](std::span<const mesh::HostPoint> names) {
     return pieces->places_of_names(names);
@@ -52,9 +57,8 @@ NumberedMesh run_number_stage(const RunResult& run, const subdomain::Partitioned
 {
   return {.ids = ids_of(run, cut, outline),
           .places_of = places_of_vertices(run, cut),
-          .places_of_names = places_of_names(run),
-          .layers = subdomain::layer_tables(cut.coarse, cut.skeleton,
-                                            mesh::lattice_levels(cut.skeleton, cut.levels))};
+          .places_of_names = places_of_names(run, cut),
+          .layers = subdomain::layer_tables(cut, run.filled.are_refined ? run.splits : 0)};
 }
 
 subdomain::WriteContext write_context(const NumberedMesh& numbered,

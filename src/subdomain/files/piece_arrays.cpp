@@ -76,7 +76,7 @@ void share_points_of_joints(const mesh::Piece& piece, const LayerTables& layers,
 {
   auto& owner = arrays.point_ints["owner"];
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    const mesh::HostEntity host = piece.skin_host[at(v)];
+    const mesh::HostEntity host = piece.name_in_layers(v).host;
     if (!layers.is_end_elsewhere(host)) continue;
     owner[at(v)] = std::min(owner[at(v)], layers.owner_of_ends(host));
   }
@@ -128,7 +128,10 @@ class ColumnEndIds {
     std::vector<mesh::HostPoint> of_tets;
     for (std::size_t row = 0; row < layered.columns.size(); ++row) {
       const mesh::HostPoint end = end_of(layered.columns[row]);
-      if (layered.has_own_end(row) && !layers().has_columns(end.host)) of_tets.push_back(end);
+      if (!layered.has_own_end(row) || layers().has_columns(end.host)) continue;
+      const mesh::Columns& columns = layered.piece.columns;
+      of_tets.push_back(columns.ends.empty() ? end
+                                             : columns.ends[columns.row_of(layered.columns[row])]);
     }
     of_tets_ = number_names(of_tets, mesh);
   }

@@ -42,12 +42,12 @@ class Stacks {
     for (std::size_t c = 0; c < 3; ++c) {
       const LocalIndex v = skin_.triangle_vertices[3 * at(triangle) + c];
       const mesh::HostPoint name{skin_.vertex_host[at(v)], skin_.vertex_index[at(v)]};
-      const auto found = std::ranges::lower_bound(columns_.vertices, name);
-      const bool has_column = found != columns_.vertices.end() && *found == name;
-      const auto row = static_cast<LocalIndex>(found - columns_.vertices.begin());
-      corners[c] = num_layers > 0 && has_column ? point_at(std::span(columns_.point_xyz),
-                                                           row * most_layers_ + num_layers - 1)
-                                                : point_at(std::span(skin_.vertex_xyz), v);
+      const std::size_t row = columns_.row_of(name);
+      const bool has_column = row < columns_.size();
+      corners[c] = num_layers > 0 && has_column
+                       ? point_at(std::span(columns_.point_xyz),
+                                  static_cast<LocalIndex>(row) * most_layers_ + num_layers - 1)
+                       : point_at(std::span(skin_.vertex_xyz), v);
     }
     return corners;
   }

@@ -2,12 +2,14 @@
 #include "subdomain/layers/layer_columns.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <numeric>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
-#include "tessera/base/sort_unique.hpp"
 #include "tessera/mesh/host_layout.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/layer_tables.hpp"
@@ -17,34 +19,63 @@
 namespace tessera::subdomain {
 namespace {
 
-// The edges of a complex on walls, of those that are images elsewhere their origins. Ascending.
-std::vector<LocalIndex> origins_of_wall_edges(const mesh::Complex& complex,
-                                              const mesh::Skeleton& skeleton)
-{
-  std::vector<LocalIndex> origins;
-  for (const LocalIndex edge : complex.edge_skeleton) {
-    if (edge == kNoIndex) continue;
-    const LocalIndex origin = skeleton.orbits.edge_columns.origin_of(edge);
-    if (origin != edge && skeleton.is_on_wall(edge)) origins.push_back(origin);
+// Of the edges of a complex on walls that are images elsewhere, their origins, refined as finely as
+// these.
+class ColumnOrigins {
+ public:
+  ColumnOrigins(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
+                const refine::RefineContext& refine)
+  {
+    std::map<LocalIndex, int> level_of;
+    const mesh::Skeleton& skeleton = refine.skeleton;
+    for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
+      const LocalIndex edge = complex.edge_skeleton[at(e)];
+      if (edge == kNoIndex) continue;
+      const LocalIndex origin = skeleton.orbits.edge_columns.origin_of(edge);
+      if (origin == edge || !skeleton.is_on_wall(edge)) continue;
+      int& level = level_of[origin];
+      level = std::max(level, lattice.levels().edge(e));
+    }
+    mesh::LatticeLevels levels;
+    for (const auto& [edge, level] : level_of) {
+      edges_.push_back(edge);
+      levels.edges.push_back(static_cast<std::int8_t>(level));
+    }
+    if (edges_.empty()) return;
+    points_ =
+        refine::refine_lattice(mesh::edge_complex(skeleton, edges_), std::move(levels), refine);
   }
-  sort_unique(origins);
-  return origins;
-}
+
+  // Ends of the column over a point of one of these edges.
+  struct Ends {
+    Vec3 wall{};
+    Vec3 tets{};
+  };
+
+  // @param[in] n Intervals of the image.
+  [[nodiscard]] Ends at_point(LocalIndex edge, LocalIndex n, LocalIndex k) const
+  {
+    const auto e = static_cast<LocalIndex>(std::ranges::lower_bound(edges_, edge) - edges_.begin());
+    const LocalIndex own = k * (points_.edge_intervals(e) / n);
+    return {points_.walls->edge_point(e, own), points_.edge_point(e, own)};
+  }
+
+ private:
+  std::vector<LocalIndex> edges_{};  // Of the skeleton, ascending.
+  mesh::RefinedLattice points_{};
+};
 
 // Points of the columns at the rim of a wall lie on the patch without layers beside it. On a
 // periodic side they are those of the lowest column of their orbit.
 class ColumnMaker {
  public:
   ColumnMaker(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
-              const mesh::Skin& skin, const mesh::Skin& walls, const refine::RefineContext& refine)
-      : skin_(skin),
-        walls_(walls),
+              const LatticePoints& points, const refine::RefineContext& refine)
+      : points_(points),
         refine_(refine),
         hosts_(refine.skeleton),
-        origins_(
-            mesh::edge_complex(refine.skeleton, origins_of_wall_edges(complex, refine.skeleton)))
+        origins_(complex, lattice, refine)
   {
-    if (origins_.num_edges() > 0) origin_points_ = refine::refine_lattice(origins_, refine);
     for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
       if (complex.edge_skeleton[at(e)] == kNoIndex) continue;
       intervals_.emplace(hosts_.edge(complex.edge_skeleton[at(e)]), lattice.edge_intervals(e));
@@ -58,13 +89,13 @@ class ColumnMaker {
 
   mesh::Columns run()
   {
-    std::vector<LocalIndex> order(at(skin_.num_vertices()));
+    std::vector<LocalIndex> order(points_.names.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](LocalIndex v) { return name(v); });
+    std::ranges::sort(order, {}, [&](LocalIndex v) { return points_.names[at(v)]; });
     for (auto first = order.begin(); first != order.end();) {
-      const mesh::HostEntity host = name(*first).host;
-      const auto last =
-          std::find_if(first, order.end(), [&](LocalIndex v) { return name(v).host != host; });
+      const mesh::HostEntity host = points_.names[at(*first)].host;
+      const auto last = std::find_if(
+          first, order.end(), [&](LocalIndex v) { return points_.names[at(v)].host != host; });
       if (num_layers_on(refine_.coarse, refine_.skeleton, hosts_, host) > 0) {
         add_host(host, {first, last});
       }
@@ -80,8 +111,9 @@ class ColumnMaker {
     const LocalIndex n = kind == mesh::HostKind::vertex ? 1 : intervals_.at(host);
     ColumnEnds ends(refine_.coarse, refine_.skeleton, kind, origin_of(host).row, n);
     for (const LocalIndex v : vertices) {
-      columns_.vertices.push_back(name(v));
-      add_points(v, ends.at_point(name(v).index));
+      const mesh::HostPoint& name = points_.names[at(v)];
+      columns_.vertices.push_back(name);
+      add_points(v, ends.at_point(name.index));
     }
   }
 
@@ -116,21 +148,18 @@ class ColumnMaker {
     }
   }
 
-  [[nodiscard]] mesh::HostPoint name(LocalIndex v) const
-  {
-    return {skin_.vertex_host[at(v)], skin_.vertex_index[at(v)]};
-  }
-
   void add_points(LocalIndex v, std::span<const LayerEnd> ends)
   {
-    const Vec3 wall = point_at(std::span(walls_.vertex_xyz), v);
-    const Column column = column_of(v, wall);
+    const Vec3 wall = point_at(std::span(points_.walls_xyz), v);
+    const Vec3 tets = point_at(std::span(points_.tets_xyz), v);
+    const mesh::HostPoint& name = points_.names[at(v)];
+    const Column column = column_of(name, wall, tets);
     const auto point_at_end = [&](const LayerEnd& end) {
-      if (end.part == 0.0) return point_at(std::span(skin_.vertex_xyz), v);
+      if (end.part == 0.0) return tets;
       if (end.part == 1.0) return wall;
       const Vec3 straight =
           column.wall + (1.0 - end.part) * (column.tets - column.wall) + end.aside;
-      return refine_.skeleton.orbits.image(column.image, on_side_patch(name(v), column, straight));
+      return refine_.skeleton.orbits.image(column.image, on_side_patch(name, column, straight));
     };
     for (const LayerEnd& end : ends) {
       const Vec3 point = point_at_end(end);
@@ -138,21 +167,17 @@ class ColumnMaker {
     }
   }
 
-  [[nodiscard]] Column column_of(LocalIndex v, const Vec3& wall) const
+  [[nodiscard]] Column column_of(const mesh::HostPoint& name, const Vec3& wall,
+                                 const Vec3& tets) const
   {
-    const mesh::HostPoint at_name = name(v);
-    const auto [row, image] = origin_of(at_name.host);
-    if (image != 0 && hosts_.kind_of(at_name.host) == mesh::HostKind::vertex) {
+    const auto [row, image] = origin_of(name.host);
+    if (image == 0) return {.wall = wall, .tets = tets, .row = row};
+    if (hosts_.kind_of(name.host) == mesh::HostKind::vertex) {
       const LocalIndex vertex = refine_.skeleton.vertex_coarse[at(row)];
       return {refine_.coarse.layers.wall(vertex), refine_.coarse.position(vertex), row, image};
     }
-    if (image != 0) {
-      const auto found = std::ranges::lower_bound(origins_.edge_skeleton, row);
-      const auto e = static_cast<LocalIndex>(found - origins_.edge_skeleton.begin());
-      const LocalIndex k = at_name.index + 1;
-      return {origin_points_.walls->edge_point(e, k), origin_points_.edge_point(e, k), row, image};
-    }
-    return {.wall = wall, .tets = point_at(std::span(skin_.vertex_xyz), v), .row = row};
+    const auto ends = origins_.at_point(row, intervals_.at(name.host), name.index + 1);
+    return {ends.wall, ends.tets, row, image};
   }
 
   [[nodiscard]] Vec3 on_side_patch(const mesh::HostPoint& at_name, const Column& column,
@@ -167,12 +192,10 @@ class ColumnMaker {
     return refine::side_point_of_edge(refine_, column.row, n, at_name.index + 1, point);
   }
 
-  const mesh::Skin& skin_;
-  const mesh::Skin& walls_;
+  const LatticePoints& points_;
   const refine::RefineContext& refine_;
   mesh::HostLayout hosts_;
-  mesh::Complex origins_;  // Edges on walls whose images the complex has.
-  mesh::RefinedLattice origin_points_{};
+  ColumnOrigins origins_;
   std::unordered_map<mesh::HostEntity, LocalIndex> intervals_{};  // Of edges and triangles.
   mesh::Columns columns_{};
 };
@@ -180,13 +203,23 @@ class ColumnMaker {
 }  // namespace
 
 mesh::Columns make_columns(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
+                           const LatticePoints& points, const refine::RefineContext& refine)
+{
+  return ColumnMaker(complex, lattice, points, refine).run();
+}
+
+mesh::Columns make_columns(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
                            const mesh::Skin& skin, const refine::RefineContext& refine,
                            LocalIndex subdomain)
 {
   if (lattice.walls == nullptr) return {};
-  const mesh::Skin walls =
-      refine::extract_skin(complex, *lattice.walls, refine.skeleton, subdomain);
-  return ColumnMaker(complex, lattice, skin, walls, refine).run();
+  LatticePoints points{.tets_xyz = skin.vertex_xyz};
+  for (LocalIndex v = 0; v < skin.num_vertices(); ++v) {
+    points.names.push_back({skin.vertex_host[at(v)], skin.vertex_index[at(v)]});
+  }
+  points.walls_xyz =
+      refine::extract_skin(complex, *lattice.walls, refine.skeleton, subdomain).vertex_xyz;
+  return make_columns(complex, lattice, points, refine);
 }
 
 }  // namespace tessera::subdomain

@@ -9,6 +9,7 @@
 #include "tessera/base/union_find.hpp"
 #include "tessera/layers/prism_tets.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/triangle_grading.hpp"
 
@@ -80,8 +81,11 @@ LocalIndex num_layers_on(const mesh::CoarseMesh& coarse, const mesh::Skeleton& s
 }
 
 LayerTables::LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
-                         const mesh::LatticeLevels& levels)
-    : coarse_(&coarse), skeleton_(&skeleton), hosts_(skeleton)
+                         const mesh::LatticeLevels& levels, int splits)
+    : coarse_(&coarse),
+      skeleton_(&skeleton),
+      parts_(mesh::lattice::intervals(splits)),
+      hosts_(skeleton)
 {
   find_layers();
   find_ends();
@@ -117,17 +121,23 @@ void LayerTables::find_ends()
 
 void LayerTables::count_columns(const mesh::LatticeLevels& levels)
 {
-  const auto add = [&](mesh::HostEntity host, LocalIndex intervals) {
-    const GlobalIndex num_columns = mesh::num_points_of_host(hosts_.kind_of(host), intervals);
+  const auto add = [&](mesh::HostEntity host, GlobalIndex num_columns) {
     first_point_.push_back(first_point_.back() + num_columns * num_own_points(host));
   };
   for (LocalIndex v = 0; v < skeleton_->num_vertices(); ++v) add(hosts_.vertex(v), 1);
   for (LocalIndex e = 0; e < skeleton_->num_edges(); ++e) {
-    add(hosts_.edge(e), levels.edge_intervals(e));
+    add(hosts_.edge(e), mesh::lattice::num_inner_edge_points(levels.edge_intervals(e) * parts_));
   }
   for (LocalIndex t = 0; t < skeleton_->num_triangles(); ++t) {
-    add(hosts_.triangle(t), levels.triangle_intervals(t));
+    add(hosts_.triangle(t), num_columns_in(t, levels));
   }
+}
+
+LocalIndex LayerTables::num_columns_in(LocalIndex triangle, const mesh::LatticeLevels& levels) const
+{
+  if (!has_columns(hosts_.triangle(triangle))) return 0;
+  return mesh::num_inner_split_points(
+      mesh::triangle_grading(*skeleton_, *coarse_, levels, triangle), parts_);
 }
 
 void LayerTables::find_owners()
@@ -183,7 +193,7 @@ void LayerTables::count_cells(const mesh::LatticeLevels& levels)
   for (LocalIndex e = 0; e < skeleton_->num_edges(); ++e) {
     if (!skeleton_->is_on_wall(e) || skeleton_->edge_side_patch[at(e)] == kNoIndex) continue;
     counts_[at(owner(hosts_.edge(e)))].side_triangles +=
-        num_side_triangles_on(e, levels.edge_intervals(e));
+        num_side_triangles_on(e, levels.edge_intervals(e) * parts_);
   }
 }
 
@@ -212,19 +222,19 @@ GlobalIndex LayerTables::num_tets_of_layer(LocalIndex triangle,
                                            const mesh::LatticeLevels& levels) const
 {
   if (std::ranges::count(on_corner, true) == 3) {
-    return 3 * mesh::num_small_triangles(*skeleton_, levels, triangle);
+    return 3 * mesh::num_small_triangles(*skeleton_, levels, triangle) * parts_ * parts_;
   }
   const mesh::TriangleGrading grading =
       mesh::triangle_grading(*skeleton_, *coarse_, levels, triangle);
-  const LocalIndex n = grading.finest_intervals();
+  const LocalIndex n = grading.finest_intervals() * parts_;
   // A point has it unless it lies on no corner that does.
   const auto has_column = [&](const TrianglePoint& p) {
     return (on_corner[0] && p.i + p.j < n) || (on_corner[1] && p.i > 0)
            || (on_corner[2] && p.j > 0);
   };
   GlobalIndex num_tets = 0;
-  mesh::for_each_graded_triangle(
-      grading, [&](const TrianglePoint& a, const TrianglePoint& b, const TrianglePoint& c) {
+  mesh::for_each_split_triangle(
+      grading, parts_, [&](const TrianglePoint& a, const TrianglePoint& b, const TrianglePoint& c) {
         num_tets += num_tets_of_prism({has_column(a), has_column(b), has_column(c)});
       });
   return num_tets;
@@ -272,10 +282,17 @@ std::optional<LayerSide> LayerTables::side(const mesh::HostPoint& a, const mesh:
 
 std::optional<LayerTables> layer_tables(const mesh::CoarseMesh& coarse,
                                         const mesh::Skeleton& skeleton,
-                                        const mesh::LatticeLevels& levels)
+                                        const mesh::LatticeLevels& levels, int splits)
 {
   if (coarse.layers.are_none()) return std::nullopt;
-  return LayerTables(coarse, skeleton, levels);
+  return LayerTables(coarse, skeleton, levels, splits);
+}
+
+std::optional<LayerTables> layer_tables(const PartitionedMesh& cut, int splits)
+{
+  if (cut.coarse.layers.are_none()) return std::nullopt;
+  return layer_tables(cut.coarse, cut.skeleton, mesh::lattice_levels(cut.skeleton, cut.levels),
+                      splits);
 }
 
 }  // namespace tessera::subdomain

@@ -53,7 +53,8 @@ class LayerBuilder {
     for (LocalIndex row = 0; row < piece().num_boundary(); ++row) {
       if (!tables_.is_wall(piece().boundary_patch[at(row)])) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        const mesh::HostPoint name = piece().skin_point(piece().boundary_vertices[3 * at(row) + c]);
+        const mesh::HostPoint name =
+            piece().name_in_layers(piece().boundary_vertices[3 * at(row) + c]);
         if (tables_.has_columns(name.host)) made_.columns.push_back(name);
       }
     }
@@ -65,7 +66,7 @@ class LayerBuilder {
   {
     if (!tables_.has_joints()) return;
     for (LocalIndex v = 0; v < piece().num_skin_vertices(); ++v) {
-      const mesh::HostPoint name = piece().skin_point(v);
+      const mesh::HostPoint name = piece().name_in_layers(v);
       if (tables_.is_end_elsewhere(name.host)) ends_.emplace(name, v);
     }
   }
@@ -83,14 +84,13 @@ class LayerBuilder {
   void add_points(const mesh::HostPoint& name)
   {
     const mesh::Columns& all = piece().columns;
-    const auto found = std::ranges::lower_bound(all.vertices, name);
-    if (found == all.vertices.end() || *found != name) {
+    const std::size_t row = all.row_of(name);
+    if (row == all.size()) {
       throw MeshError(fmt::format("piece {} has no column over vertex {} of host {}",
                                   piece().subdomain, name.index, name.host));
     }
     const std::size_t size = 3 * at(tables_.most_layers());
-    const double* end =
-        &all.point_xyz[size * static_cast<std::size_t>(found - all.vertices.begin())] + size;
+    const double* end = &all.point_xyz[size * row] + size;
     const double* first = end - 3 * tables_.num_layers(name.host);
     const mesh::HostPoint end_name{tables_.end_host(name.host), name.index};
     const auto known = ends_.find(end_name);
@@ -102,7 +102,7 @@ class LayerBuilder {
 
   [[nodiscard]] Corner corner_of(LocalIndex vertex)
   {
-    Corner corner{vertex, piece().skin_point(vertex)};
+    Corner corner{vertex, piece().name_in_layers(vertex)};
     const auto found = std::ranges::lower_bound(made_.columns, corner.name);
     if (found != made_.columns.end() && *found == corner.name) {
       corner.column = static_cast<LocalIndex>(found - made_.columns.begin());

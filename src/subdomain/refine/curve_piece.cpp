@@ -29,7 +29,8 @@ PieceCurver::PieceCurver(const mesh::Piece& piece, const PieceSurroundings& arou
 
 RefinedPiece PieceCurver::run(const refine::RefineContext& refine, const PieceSummary& before) const
 {
-  const mesh::RefinedLattice points = surface_.points(refine);
+  const mesh::RefinedLattice points =
+      surface_.points(surface_.known_points(refine), refine.limiter);
   const mesh::Skin skin = surface_.named_skin(points);
   RefinedPiece made;
   made.filled.piece = curved(skin, points);
@@ -138,7 +139,7 @@ FillResult PieceCurver::measure(const mesh::Piece& curved, const mesh::Skin& ski
       at(skin.num_vertices()),
       [&](std::size_t simplex, mesh::HostKind kind) { return surface_.is_on_seam(simplex, kind); });
   FillResult result =
-      measure_split_piece(curved, skin, all_.surface, {on_seam.begin(), on_seam.end()}, before);
+      measure_split_piece(curved, skin, all_.surface, {}, {on_seam.begin(), on_seam.end()}, before);
   PieceSummary& summary = result.summary;
   summary.volume = 0.0;
   for (LocalIndex t = 0; t < curved.num_tets(); ++t) {

@@ -120,28 +120,70 @@ mesh::Piece halo_beside(const mesh::Piece& halo, const number::SurfaceList& surf
 }
 
 number::PieceCounts count_split_piece(const mesh::Piece& piece, const number::SurfaceList& surface,
-                                      const number::SharedSurface& shared, const PieceSplit& split)
+                                      const number::SharedSurface& shared, const PieceSplit& split,
+                                      const LayerTables* layers)
 {
   const LocalIndex n = mesh::lattice::intervals(split.levels);
   const PieceComplex alone = make_piece_complex(piece, {}, surface.simplices);
   const fill::SubdivisionCounts inside =
       fill::count_subdivision(alone.complex, alone.mesh, split.levels);
-  return {.interior_vertices = inside.interior_vertices,
-          .tets = split.is_curved ? piece.num_tets() : inside.tets,
-          .boundary_triangles = GlobalIndex{piece.num_boundary()} * (split.is_curved ? 1 : n * n),
-          .line_edges = GlobalIndex{piece.num_line_edges()} * (split.is_curved ? 1 : n),
-          .owned_vertices = inside.interior_vertices + shared.owned.num_points(n)};
+  number::PieceCounts counts{
+      .interior_vertices = inside.interior_vertices,
+      .tets = split.is_curved ? piece.num_tets() : inside.tets,
+      .boundary_triangles = GlobalIndex{piece.num_boundary()} * (split.is_curved ? 1 : n * n),
+      .line_edges = GlobalIndex{piece.num_line_edges()} * (split.is_curved ? 1 : n),
+      .owned_vertices = inside.interior_vertices + shared.owned.num_points(n)};
+  if (layers == nullptr) return counts;
+  const auto num_hidden = std::ranges::count_if(
+      piece.boundary_patch, [&](LocalIndex patch) { return layers->is_hidden(patch); });
+  const LayerCounts& more = layers->counts(piece.subdomain);
+  counts.tets += more.tets;
+  counts.boundary_triangles += more.side_triangles - num_hidden * n * n;
+  return counts;
+}
+
+number::SurfaceSimplices ends_across_joints(const number::SurfaceSimplices& surface,
+                                            const LayerTables& layers)
+{
+  number::SurfaceSimplices ends;
+  const auto add_others = [&](const auto& simplices, auto& others) {
+    for (auto simplex : simplices) {
+      const auto before = simplex;
+      for (mesh::HostPoint& name : simplex) name = layers.end_at_tets(name);
+      if (simplex == before) continue;
+      std::ranges::sort(simplex);
+      others.push_back(simplex);
+    }
+    sort_unique(others);
+  };
+  for (const mesh::HostPoint& name : surface.vertices) {
+    const mesh::HostPoint end = layers.end_at_tets(name);
+    if (end != name) ends.vertices.push_back(end);
+  }
+  sort_unique(ends.vertices);
+  add_others(surface.edges, ends.edges);
+  add_others(surface.triangles, ends.triangles);
+  return ends;
+}
+
+std::vector<VertexPlace> places_of_split_names(std::span<const mesh::HostPoint> names,
+                                               const mesh::HostLayout& hosts)
+{
+  std::vector<VertexPlace> places;
+  for (const mesh::HostPoint& name : names) {
+    places.push_back({hosts.row_of(name.host), name.index});
+  }
+  return places;
 }
 
 std::vector<VertexPlace> places_of_split_piece(const mesh::Piece& piece,
                                                const mesh::HostLayout& hosts,
                                                const number::PieceCounts& counts)
 {
-  std::vector<VertexPlace> places;
+  std::vector<mesh::HostPoint> names;
+  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) names.push_back(piece.skin_point(v));
+  std::vector<VertexPlace> places = places_of_split_names(names, hosts);
   places.reserve(at(piece.num_vertices()));
-  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    places.push_back({hosts.row_of(piece.skin_host[at(v)]), piece.skin_index[at(v)]});
-  }
   auto next = static_cast<LocalIndex>(counts.owned_vertices - counts.interior_vertices);
   for (LocalIndex v = piece.num_skin_vertices(); v < piece.num_vertices(); ++v) {
     places.push_back({piece.subdomain, next++});

@@ -15,7 +15,9 @@
 
 #include "subdomain/files/boundary_triangles.hpp"
 #include "subdomain/geometry_places.hpp"
+#include "subdomain/layers/measure_layers.hpp"
 #include "subdomain/refine/curve_piece.hpp"
+#include "subdomain/refine/split_columns.hpp"
 #include "subdomain/refine/split_surface.hpp"
 
 namespace tessera::subdomain {
@@ -40,10 +42,12 @@ class PieceSplitter {
  public:
   PieceSplitter(const mesh::Piece& piece, const PieceSurroundings& around,
                 const refine::RefineContext& refine, const PartitionedMesh& cut,
-                const GeometryFinder& finder, int splits)
+                const GeometryFinder& finder, int splits, const LayerTables* layers)
       : piece_(piece),
         around_(around),
         refine_(refine),
+        images_(cut.coarse.images),
+        layers_(layers),
         n_(lattice::intervals(splits)),
         surface_(piece, around, cut, finder, splits),
         all_(surface_.all())
@@ -52,7 +56,9 @@ class PieceSplitter {
 
   RefinedPiece run(const PieceSummary& before) const
   {
-    const mesh::RefinedLattice points = surface_.points(refine_);
+    const mesh::RefinedLattice known = surface_.known_points(refine_);
+    const mesh::RefinedLattice points = surface_.points(known, refine_.limiter);
+    SplitColumns columns = columns_of(known, points);
     fill::FillOutput tets = fill::subdivide(all_.complex, points);
     if (around_.is_smoothed) smooth_seams(tets);
     tets = own_tets(std::move(tets));
@@ -60,6 +66,10 @@ class PieceSplitter {
     RefinedPiece refined;
     if (!fill::all_positive(tets)) {
       refined.folds = surface_.limits_at(folded_parents(fill::subdivide(all_.complex, points)));
+    }
+    const auto of_layers = surface_.limits_at_triangles(columns.folded);
+    refined.folds.insert(refined.folds.end(), of_layers.begin(), of_layers.end());
+    if (!fill::all_positive(tets) || !columns.folded.empty()) {
       refined.filled.result.summary = before;
       refined.filled.result.summary.is_folded = true;
       return refined;
@@ -67,6 +77,10 @@ class PieceSplitter {
     const mesh::Skin skin = skin_of(points, tets);
     refined.filled = check_and_measure(skin, points.levels(), std::move(tets), before);
     PieceSummary& summary = refined.filled.result.summary;
+    if (layers_ != nullptr) {
+      refined.filled.piece.columns = std::move(columns.columns);
+      measure_layers(refined.filled.piece, *layers_, summary);
+    }
     summary.num_held_back = points.distance.num_held_back;
     summary.model_distance = points.distance.largest;
     summary.held_back_distance = points.distance.largest_held_back;
@@ -75,6 +89,13 @@ class PieceSplitter {
 
  private:
   [[nodiscard]] LocalIndex num_children() const { return n_ * n_ * n_; }
+
+  [[nodiscard]] SplitColumns columns_of(const mesh::RefinedLattice& known,
+                                        const mesh::RefinedLattice& points) const
+  {
+    if (layers_ == nullptr) return {};
+    return split_columns(surface_, piece_, around_, known, points, refine_, *layers_);
+  }
 
   // By what all pieces around a seam know: its tets as they were split.
   void smooth_seams(fill::FillOutput& tets) const
@@ -179,7 +200,7 @@ class PieceSplitter {
                                                 [&](std::size_t simplex, mesh::HostKind kind) {
                                                   return surface_.is_on_seam(simplex, kind);
                                                 });
-    filled.result = measure_split_piece(filled.piece, skin, all_.surface,
+    filled.result = measure_split_piece(filled.piece, skin, all_.surface, images_,
                                         {on_seam.begin(), on_seam.end()}, before);
     PieceSummary& summary = filled.result.summary;
     summary.volume = facts.volume;
@@ -191,7 +212,9 @@ class PieceSplitter {
   const mesh::Piece& piece_;
   const PieceSurroundings& around_;
   const refine::RefineContext& refine_;
-  LocalIndex n_;  // Intervals of an edge of the piece.
+  const mesh::SideImages& images_;
+  const LayerTables* layers_;  // Null: the mesh has none.
+  LocalIndex n_;               // Intervals of an edge of the piece.
   SplitSurface surface_;
   const PieceComplex& all_;  // Of the surface.
 };
@@ -207,15 +230,15 @@ PieceRefiner::PieceRefiner(PieceRefiner&&) noexcept = default;
 PieceRefiner::~PieceRefiner() = default;
 
 RefinedPiece PieceRefiner::refine(const mesh::Piece& piece, const PieceSurroundings& around,
-                                  const refine::RefineContext& refine,
-                                  const PieceSummary& before) const
+                                  const refine::RefineContext& refine, const PieceSummary& before,
+                                  const LayerTables* layers) const
 {
   const auto& [cut, split, finder] = *state_;
   if (split.is_curved) {
     const SplitSurface surface(piece, around, cut, finder, split.levels);
     return PieceCurver(piece, around, surface).run(refine, before);
   }
-  return PieceSplitter(piece, around, refine, cut, finder, split.levels).run(before);
+  return PieceSplitter(piece, around, refine, cut, finder, split.levels, layers).run(before);
 }
 
 }  // namespace tessera::subdomain

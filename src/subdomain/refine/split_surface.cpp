@@ -30,12 +30,11 @@ SplitSurface::SplitSurface(const mesh::Piece& piece, const PieceSurroundings& ar
   order_places_by_need();
 }
 
-mesh::RefinedLattice SplitSurface::points(const refine::RefineContext& refine) const
+mesh::RefinedLattice SplitSurface::points(const mesh::RefinedLattice& known,
+                                          const mesh::ProjectionLimiter& limiter) const
 {
-  const mesh::RefinedLattice known = lattice_of_known_places(refine);
-  mesh::RefinedLattice points =
-      midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz,
-                       {places_, known, cut_.skeleton, refine.limiter}, splits_);
+  mesh::RefinedLattice points = midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz,
+                                                 {places_, known, cut_.skeleton, limiter}, splits_);
   points.distance = known.distance;
   return points;
 }
@@ -162,8 +161,7 @@ void SplitSurface::order_places_by_need()
   places_.triangles = std::move(order);
 }
 
-mesh::RefinedLattice SplitSurface::lattice_of_known_places(
-    const refine::RefineContext& refine) const
+mesh::RefinedLattice SplitSurface::known_points(const refine::RefineContext& refine) const
 {
   const mesh::Complex skin = mesh::skin_complex(cut_.skeleton, piece_.subdomain);
   mesh::RefinedLattice known = refine::refine_lattice(skin, levels_of(skin), refine);
@@ -264,27 +262,34 @@ std::vector<LocalIndex> SplitSurface::edges_on_lines() const
   return edges;
 }
 
-// All new points on the geometry that these tets have stay midpoints from now on.
 std::vector<mesh::PointLimit> SplitSurface::limits_at(const std::vector<LocalIndex>& tets) const
+{
+  std::vector<LocalIndex> triangles;
+  for (const LocalIndex tet : tets) {
+    const LocalIndex* faces = &all_.complex.tet_triangles[4 * at(tet)];
+    triangles.insert(triangles.end(), faces, faces + 4);
+  }
+  return limits_at_triangles(triangles);
+}
+
+std::vector<mesh::PointLimit> SplitSurface::limits_at_triangles(
+    const std::vector<LocalIndex>& triangles) const
 {
   std::vector<mesh::PointLimit> limits;
   const auto hold_back = [&](const GeometryPlace& place, LocalIndex i, LocalIndex j) {
     if (!place.is_on_geometry()) return;
     const LocalIndex triangle = places_.triangles[at(place.triangle)];
-    const LocalIndex n = lattice::intervals(finder_.level_of(triangle) + splits_);
+    const LocalIndex n = intervals_of_triangle(triangle);
     limits.push_back({key_of(cut_.skeleton, triangle, n, place.point(n_, i, j)), 0.0});
   };
   const mesh::Complex& faces = all_.complex.faces;
-  for (const LocalIndex tet : tets) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      const LocalIndex t = all_.complex.tet_triangles[4 * at(tet) + c];
-      for (std::size_t side = 0; side < 3; ++side) {
-        const GeometryPlace& edge = places_.edges[at(faces.triangle_edges[3 * at(t) + side])];
-        for (LocalIndex k = 1; k < n_; ++k) hold_back(edge, k, 0);
-      }
-      for (LocalIndex j = 1; j < n_; ++j) {
-        for (LocalIndex i = 1; i + j < n_; ++i) hold_back(places_.of_triangles[at(t)], i, j);
-      }
+  for (const LocalIndex t : triangles) {
+    for (std::size_t side = 0; side < 3; ++side) {
+      const GeometryPlace& edge = places_.edges[at(faces.triangle_edges[3 * at(t) + side])];
+      for (LocalIndex k = 1; k < n_; ++k) hold_back(edge, k, 0);
+    }
+    for (LocalIndex j = 1; j < n_; ++j) {
+      for (LocalIndex i = 1; i + j < n_; ++i) hold_back(places_.of_triangles[at(t)], i, j);
     }
   }
   return limits;

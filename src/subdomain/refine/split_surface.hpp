@@ -12,6 +12,7 @@
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skin.hpp"
 #include "tessera/mesh/tet_topology.hpp"
+#include "tessera/mesh/triangle_grading.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
 
 #include "subdomain/geometry_places.hpp"
@@ -30,9 +31,37 @@ class SplitSurface {
   // The piece and the tets of its neighbours.
   [[nodiscard]] const PieceComplex& all() const { return all_; }
 
-  // All lattice points, on the geometry as far as they matter. Its distances to the model are those
-  // of the skin alone: other triangles are of other skins.
-  [[nodiscard]] mesh::RefinedLattice points(const refine::RefineContext& refine) const;
+  // What lies on the geometry, as far as it matters: the complex of the skin comes first, then
+  // other triangles of places().
+  [[nodiscard]] mesh::RefinedLattice known_points(const refine::RefineContext& refine) const;
+
+  // All lattice points. Their distances to the model are those of the skin alone: other triangles
+  // are of other skins.
+  [[nodiscard]] mesh::RefinedLattice points(const mesh::RefinedLattice& known,
+                                            const mesh::ProjectionLimiter& limiter) const;
+
+  [[nodiscard]] const GeometryPlaces& places() const { return places_; }
+
+  // Intervals of an edge of the piece.
+  [[nodiscard]] LocalIndex intervals() const { return n_; }
+
+  // Of the lattice in which the points of a triangle of the skeleton stand after the split.
+  [[nodiscard]] LocalIndex intervals_of_triangle(LocalIndex triangle) const
+  {
+    return mesh::lattice::intervals(finder_.level_of(triangle) + splits_);
+  }
+
+  // Of an edge of the skeleton after the split.
+  [[nodiscard]] LocalIndex intervals_of_skeleton_edge(LocalIndex edge) const
+  {
+    return mesh::lattice::intervals(finder_.level_of_edge(edge) + splits_);
+  }
+
+  // What makes the small triangles of a triangle of the skeleton.
+  [[nodiscard]] mesh::TriangleGrading grading_of(LocalIndex triangle) const
+  {
+    return finder_.grading_of(triangle);
+  }
 
   // The piece's surface with these points and the names that owners give.
   [[nodiscard]] mesh::Skin named_skin(const mesh::RefinedLattice& points) const;
@@ -80,6 +109,10 @@ class SplitSurface {
   // All new points on the geometry that these tets have stay midpoints from now on.
   [[nodiscard]] std::vector<mesh::PointLimit> limits_at(const std::vector<LocalIndex>& tets) const;
 
+  // The same of triangles of the complex.
+  [[nodiscard]] std::vector<mesh::PointLimit> limits_at_triangles(
+      const std::vector<LocalIndex>& triangles) const;
+
  private:
   void tie_surface_to_geometry();
   [[nodiscard]] bool is_of_surface(std::size_t simplex, mesh::HostKind kind) const;
@@ -102,8 +135,6 @@ class SplitSurface {
   [[nodiscard]] bool needs_points_of(LocalIndex tet) const;
   [[nodiscard]] std::vector<char> needed_places() const;
   void order_places_by_need();
-  [[nodiscard]] mesh::RefinedLattice lattice_of_known_places(
-      const refine::RefineContext& refine) const;
   [[nodiscard]] mesh::LatticeLevels levels_of(const mesh::Complex& complex) const;
   [[nodiscard]] std::span<const LocalIndex> own_corners() const;
   [[nodiscard]] bool is_outward(const mesh::TriangleTets& triangle) const;

@@ -37,12 +37,6 @@ TEST(Layers, AreThoseOfTheCase)
   EXPECT_EQ(parse_case(to_toml(loaded), "/cases/case.toml", {}), loaded);
 }
 
-TEST(Layers, AreFilledOnAllLevels)
-{
-  EXPECT_EQ(resolved_fill(parsed(kLayer), false).levels, fill::kAllLevels);
-  EXPECT_EQ(resolved_fill(parsed(""), false).levels, 0);
-}
-
 TEST(Layers, LeadUpToTheSizeOfTheCase)
 {
   EXPECT_EQ(parsed("[[layer]]\npatch = 'a'\nfirst = 0.1\n").layers[0].count, 12);
@@ -63,8 +57,6 @@ TEST(Layers, RefuseWhatDoesNotGoWithThem)
 {
   const std::string layer = kLayer;
   EXPECT_TRUE(contains(error_of("output.order = 2\n" + layer), "[[layer]] excludes output.order"));
-  EXPECT_TRUE(contains(error_of("refine.levels = 3\nfill.levels = 1\n" + layer),
-                       "[[layer]] excludes fill.levels"));
   EXPECT_TRUE(contains(error_of("decompose.method = 'geometry'\n" + layer),
                        "[[layer]] excludes decompose.method"));
   EXPECT_TRUE(contains(error_of(layer + "thickness = 1\n"), "both count and thickness"));

@@ -185,6 +185,24 @@ TEST_P(LayeredCube, HoldsWhatTheClosedFormsSay)
 
 TEST_P(LayeredCube, IsOneMesh) { expect_one_mesh(layered_.whole_mesh(1)); }
 
+// Where all edges have one level, a split makes the lattice of more levels.
+TEST_P(LayeredCube, HasAsManyLayersIfItIsSplit)
+{
+  const testing::Body& body = layered_.body();
+  const auto tables_of = [&](int levels, int splits) {
+    return LayerTables(body.coarse, body.skeleton, mesh::lattice_levels(body.skeleton, levels),
+                       splits);
+  };
+  const LayerTables fine = tables_of(3, 0);
+  for (const int splits : {1, 2, 3}) {
+    const LayerTables split = tables_of(3 - splits, splits);
+    EXPECT_EQ(split.num_points(), fine.num_points());
+    for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
+      EXPECT_EQ(split.counts(s), fine.counts(s));
+    }
+  }
+}
+
 // At a joint there are as many triangles between the materials as without layers.
 TEST_P(LayeredCube, IsClosedBetweenMaterials)
 {
