@@ -32,7 +32,8 @@ GlobalIndex sum_over(const subdomain::SubdomainRange& range, Count&& count)
   return sum;
 }
 
-// A split makes eight of every tet, of those as well that were cut beside a finer edge.
+// A split makes eight of every tet, of those as well that were cut beside a finer edge. Vertices
+// stay those of as many levels more.
 void count_split_tets(const subdomain::PartitionedMesh& cut, int splits,
                       std::vector<number::PieceCounts>& pieces)
 {
@@ -114,7 +115,7 @@ RunOutline outline_run(const subdomain::PartitionedMesh& cut,
   outline.jobs = outline.is_one_pass ? files : one_by_one(files);
   const mesh::LatticeLevels of_skeleton = mesh::lattice_levels(cut.skeleton, all);
   outline.num_skeleton_vertices = mesh::num_skeleton_points(cut.skeleton, of_skeleton);
-  if (const auto layers = subdomain::layer_tables(cut.coarse, cut.skeleton, of_skeleton)) {
+  if (const auto layers = subdomain::layer_tables(cut, choices.splits)) {
     outline.num_skeleton_vertices += layers->num_points();
   }
   outline.seam_triangles.resize(kernels.size());

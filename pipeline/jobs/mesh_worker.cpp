@@ -28,6 +28,7 @@
 #include "tessera/subdomain/column_folds.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
 #include "tessera/subdomain/improve_seam_region.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_surface.hpp"
 #include "tessera/subdomain/refine_piece.hpp"

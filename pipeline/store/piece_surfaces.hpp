@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
 #include "tessera/io/record_store.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/number/id_layout.hpp"
@@ -48,7 +49,7 @@ class PieceSurfaces {
   PieceStore pieces_;
   std::vector<std::vector<LocalIndex>> neighbours_;  ///< By subdomain, ascending.
   const subdomain::LayerTables* layers_;
-  std::vector<std::vector<LocalIndex>> across_;  ///< By subdomain, across joints; ascending.
+  IndexLists triangles_at_{};  ///< Of the skeleton, by vertex; only if there are joints.
 };
 
 }  // namespace tessera::pipeline

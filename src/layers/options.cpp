@@ -10,9 +10,6 @@
 namespace tessera::layers {
 namespace {
 
-// Of a regular one, by its edge.
-constexpr double kHeightOfTet = 0.816;
-
 // Of `count` layers, the first one of height 1.
 double height_of(int count, double growth)
 {
@@ -52,9 +49,15 @@ bool is_complete(const LayerOptions& options)
   return options.count > 0 || options.thickness > 0.0;
 }
 
+double height_of_tets(double size)
+{
+  constexpr double kOfRegularTet = 0.816;  // By its edge.
+  return kOfRegularTet * size;
+}
+
 int count_up_to(const LayerOptions& options, double size)
 {
-  const double wanted = kHeightOfTet * size / options.growth;
+  const double wanted = height_of_tets(size) / options.growth;
   if (options.first >= wanted) return 1;
   if (options.growth == 1.0) return 0;
   const double count = 1.0 + std::log(wanted / options.first) / std::log(options.growth);
@@ -77,6 +80,11 @@ int num_layers(const LayerOptions& options)
 double thickness(const LayerOptions& options)
 {
   return options.first * height_of(num_layers(options), options.growth);
+}
+
+double last_height(const LayerOptions& options)
+{
+  return options.first * std::pow(options.growth, num_layers(options) - 1);
 }
 
 std::vector<double> layer_ends(const LayerOptions& options)

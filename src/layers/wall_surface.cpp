@@ -276,13 +276,13 @@ class WallFinder {
     for (Vec3& normal : inward) normal = unit(normal - dot(normal, across) * across);
     const Vec3 best = best_direction(inward);
     const Vec3 direction = unit(best - dot(best, across) * across);
-    return goes_over_sides(vertex.vertex, around, direction) ? direction : Vec3{};
+    return goes_over_sides(vertex.vertex, around, across, direction) ? direction : Vec3{};
   }
 
-  // Whether a direction along the triangles without layers leads onto one of them. Else the wall
-  // ends at an edge that the material goes around.
+  // Whether a direction along the triangles without layers leads onto one of them, as they are seen
+  // along `across`. Else the wall ends at an edge that the material goes around.
   [[nodiscard]] bool goes_over_sides(LocalIndex vertex, std::span<const LocalIndex> around,
-                                     const Vec3& direction) const
+                                     const Vec3& across, const Vec3& direction) const
   {
     return std::ranges::any_of(around, [&](LocalIndex row) {
       const SurfaceTriangle& triangle = surface_.triangles[at(row)];
@@ -292,8 +292,8 @@ class WallFinder {
       const Vec3 here = mesh_.position(vertex);
       const Vec3 first = mesh_.position(v[(c + 1) % 3]) - here;
       const Vec3 last = mesh_.position(v[(c + 2) % 3]) - here;
-      return dot(cross(first, direction), triangle.normal) >= 0.0
-             && dot(cross(direction, last), triangle.normal) >= 0.0;
+      return dot(cross(first, direction), across) >= 0.0
+             && dot(cross(direction, last), across) >= 0.0;
     });
   }
 

@@ -9,8 +9,7 @@
 namespace tessera::subdomain {
 
 std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& cut,
-                                                         const mesh::EdgeLevels& levels,
-                                                         int splits)
+                                                         const mesh::EdgeLevels& levels, int splits)
 {
   const mesh::LatticeLevels of_skeleton = mesh::lattice_levels(cut.skeleton, levels);
   const auto layers = layer_tables(cut.coarse, cut.skeleton, of_skeleton, splits);
@@ -18,9 +17,8 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
   for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
     const auto inside = fill::count_subdivision(
         mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets[s]), cut.coarse, levels);
-    number::PieceCounts& piece = counts.emplace_back(
-        number::PieceCounts{.interior_vertices = inside.interior_vertices,
-                            .tets = inside.tets << 3 * splits});
+    number::PieceCounts& piece = counts.emplace_back(number::PieceCounts{
+        .interior_vertices = inside.interior_vertices, .tets = inside.tets << 3 * splits});
     for (const LocalIndex t : cut.skeleton.triangles_of(s)) {
       const LocalIndex patch = cut.skeleton.triangle_patch[at(t)];
       if (patch == kNoIndex || cut.skeleton.triangle_owner(t) != s) continue;

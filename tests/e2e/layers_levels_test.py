@@ -24,6 +24,10 @@ BALL = (
     "algebraic3d\nsolid ball = sphere (0.5, 0.5, 0.5; 0.3);\nsolid block = orthobrick (0, 0, 0; 1, 1, 1) and not ball;\n"
     "tlo ball -col=[1, 0, 0];\ntlo block;\n"
 )
+# Four blocks around a line.
+BLOCKS = "algebraic3d\n" + "".join(
+    f"solid {name} = orthobrick ({x}, {y}, 0; {x + 1}, {y + 1}, 1);\n" for name, x, y in (("a", 0, 0), ("b", 1, 0), ("c", 0, 1), ("d", 1, 1))
+) + "tlo a;\ntlo b;\ntlo c;\ntlo d;\n"
 LAYER = "[[layer]]\npatch = '{}'\n{}first = 0.01\ncount = 3\n"
 
 
@@ -110,6 +114,21 @@ class Elsewhere(LayersLevelsTest):
                 case = self.case(BALL, layers)
                 figures = self.assert_same_bits(case, *self.SPLIT)
                 self.assert_same_layers(figures, case, self.SPLIT[1])
+
+    def test_that_end_at_tets_diagonally_across(self):
+        """Around the line columns of three blocks end at tets of the fourth, which only two of them have a face with."""
+        layers = "".join(LAYER.format("*", f"side = '{side}'\n") for side in "abc")
+        case = self.case(BLOCKS, layers)
+        self.assert_same_bits(case, *self.SPLIT)
+        self.assert_same_bits(case, *self.SPLIT, "decompose.subdomains=4")
+
+    def test_are_the_same_in_parts(self):
+        case = self.case(BALL, LAYER.format("*", "side = 'block'\n"))
+        out, figures = self.made(case, "out", *self.SPLIT)
+        _, in_parts = self.made(case, "parts", *self.SPLIT, "output.parts=3")
+        self.assertEqual(in_parts["layers"]["num_tets"], figures["layers"]["num_tets"])
+        self.run_program("repartition", out / "mesh.pvtu", "--parts", "3", "--output", "again", ranks=2)
+        self.assertEqual(self.run_program("check", self.folder / "again" / "mesh.pvtu").code, OK)
 
     def test_as_prisms_of_other_formats(self):
         case = self.case(PIPE, LAYER.format("patch_3", ""))

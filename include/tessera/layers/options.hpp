@@ -40,12 +40,18 @@ inline constexpr int kMostLayers = 100;
 /// if it takes too many. Local.
 [[nodiscard]] int count_up_to(const LayerOptions& options, double size);
 
+/// @brief Height of tets of edge length `size`. Local.
+[[nodiscard]] double height_of_tets(double size);
+
 /// @brief Number of layers: `count`, or what comes nearest to `thickness`, at least one and
 /// at most one more than kMostLayers. Local. @pre is_complete(), here and below.
 [[nodiscard]] int num_layers(const LayerOptions& options);
 
 /// @brief Thickness of all num_layers() together, output length unit. Local.
 [[nodiscard]] double thickness(const LayerOptions& options);
+
+/// @brief Height of the layer beside the tets, output length unit. Local.
+[[nodiscard]] double last_height(const LayerOptions& options);
 
 /// @brief Where the layers of an entry end, as parts of its thickness from the tets to the wall:
 /// mesh::WallLayers::ends. Local.

@@ -17,6 +17,9 @@
 
 namespace tessera::mesh {
 
+/// @brief Corners of the sides of a triangle, in the order of lattice::side_point().
+inline constexpr std::array<std::array<std::size_t, 2>, 3> kSideEnds{{{0, 1}, {0, 2}, {1, 2}}};
+
 /// @brief What the small triangles of one coarse triangle are a function of, besides its points.
 struct TriangleGrading {
   int level = 0;       ///< Of its lattice: the smallest of its sides.
@@ -53,7 +56,6 @@ void for_each_graded_triangle(const TriangleGrading& grading, Visit&& visit)
     lattice::for_each_small_triangle(n, 1, visit);
     return;
   }
-  constexpr std::array<std::array<std::size_t, 2>, 3> kEnds{{{0, 1}, {0, 2}, {1, 2}}};
   const auto is_on = [n](const TrianglePoint& p, std::size_t side) {
     return side == 0 ? p.j == 0 : side == 1 ? p.i == 0 : p.i + p.j == n;
   };
@@ -62,8 +64,8 @@ void for_each_graded_triangle(const TriangleGrading& grading, Visit&& visit)
     std::array<TrianglePoint, 6> nodes{a, b, c};
     unsigned marks = 0;
     for (std::size_t side = 0; side < 3; ++side) {
-      const TrianglePoint& p = nodes[kEnds[side][0]];
-      const TrianglePoint& q = nodes[kEnds[side][1]];
+      const TrianglePoint& p = nodes[kSideEnds[side][0]];
+      const TrianglePoint& q = nodes[kSideEnds[side][1]];
       nodes[3 + side] = {(p.i + q.i) / 2, (p.j + q.j) / 2};
       const bool is_finer = (grading.finer >> side & 1U) != 0;
       if (is_finer && is_on(p, side) && is_on(q, side)) marks |= 1U << side;
@@ -99,9 +101,6 @@ class SplitPointNumbers {
  public:
   SplitPointNumbers(const TriangleGrading& grading, LocalIndex parts);
 
-  /// @brief Intervals of the lattice.
-  [[nodiscard]] LocalIndex intervals() const { return n_; }
-
   /// @pre The point lies inside of the coarse triangle, and the split has it.
   [[nodiscard]] LocalIndex of(const lattice::TrianglePoint& p) const
   {
@@ -109,7 +108,7 @@ class SplitPointNumbers {
   }
 
  private:
-  LocalIndex n_;
+  LocalIndex n_;                    ///< Intervals of the lattice.
   std::vector<LocalIndex> number_;  ///< Shape (num_inner_triangle_points(n)); kNoIndex: none.
 };
 

@@ -84,6 +84,10 @@ class LayerTables {
     return ends_there ? mesh::HostPoint{end_host(vertex.host), vertex.index} : vertex;
   }
 
+  /// @brief Vertices of the skeleton around which columns of a subdomain end at tets across joints;
+  /// ascending. O(its triangles).
+  [[nodiscard]] std::vector<LocalIndex> vertices_of_ends(LocalIndex subdomain) const;
+
   /// @brief Number of the first point of a column among them, next to the tets; the others follow.
   /// @pre num_own_points(vertex.host) > 0
   [[nodiscard]] GlobalIndex first_point(const mesh::HostPoint& vertex) const

@@ -14,6 +14,25 @@ namespace {
 
 constexpr jobs::JobLimits kLayerLimits{.cpu_s = 3600.0, .stall_s = 120.0, .memory_gib = 16.0};
 
+// Tets more than that many times as high as one more layer would be are worth a word: nobody wants
+// cells to grow as fast.
+constexpr double kJump = 2.0;
+
+// How many layers a case gives is its own choice, and so is the size inside.
+void tell_of_jumps(const config::Case& run_case, const RunContext& context)
+{
+  const double of_tets = layers::height_of_tets(run_case.size.target);
+  for (const layers::LayerOptions& layer : run_case.layers) {
+    const double last = layers::last_height(layer);
+    if (of_tets <= kJump * layer.growth * last) continue;
+    context.log.info(
+        fmt::format("layers: the last one of \"{}\" is {:.3g} high, and tets of "
+                    "size.target are {:.3g}; without count and thickness, as many "
+                    "layers are made as lead up to that",
+                    layer.patch, last, of_tets));
+  }
+}
+
 LayeredMesh layered(const config::Case& run_case, const mesh::CoarseMesh& coarse,
                     RunContext& context)
 {
@@ -28,6 +47,7 @@ LayeredMesh layered(const config::Case& run_case, const mesh::CoarseMesh& coarse
 LayeredMesh run_layer_stage(const config::Case& run_case, const mesh::CoarseMesh& coarse,
                             RunContext& context)
 {
+  tell_of_jumps(run_case, context);
   StageScope stage(context, Stage::layers);
   LayeredMesh made = comm::on_root_of_nodes(context.comm, [&] {
     return with_file_context(run_case, [&] { return layered(run_case, coarse, context); });

@@ -121,7 +121,10 @@ class StageWork {
     GlobalIndex num_tets = 0;
     for (LocalIndex s = range.first; s < range.last; ++s)
       num_tets += filled_.pieces[at(s)].num_tets;
-    return static_cast<double>(num_tets << 3 * work_.split.levels);
+    num_tets <<= 3 * work_.split.levels;
+    for (LocalIndex s = range.first; layers_ && s < range.last; ++s)
+      num_tets += layers_->counts(s).tets;
+    return static_cast<double>(num_tets);
   }
 
   [[nodiscard]] std::vector<double> weights() const

@@ -11,6 +11,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/orbits.hpp"
 
+#include "pipeline/estimate/run_outline.hpp"
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
@@ -27,12 +28,15 @@ constexpr jobs::JobLimits kUntangleLimits{.cpu_s = 1800.0, .stall_s = 120.0, .me
 
 // The first plan looks at coarse levels only, so that it does not cost as much as the subdivision
 // itself. Subdivision finds bad children of fine levels by itself, and comes back for a plan of all
-// levels.
+// levels. But layers that are split afterwards must be positive however their prisms are cut, and a
+// fill looks at them only as they are cut.
 UntangleTest test_of(LocalIndex subdomain, const UntangleWork& work)
 {
   const fill::KernelKind kernel = work.kernels[at(subdomain)];
-  const bool is_first_look =
-      kernel == fill::KernelKind::subdivide && work.depth == UntangleDepth::coarse_levels;
+  const bool may_split_layers =
+      !work.cut.coarse.layers.are_none() && !are_counts_known(work.kernels);
+  const bool is_first_look = kernel == fill::KernelKind::subdivide
+                             && work.depth == UntangleDepth::coarse_levels && !may_split_layers;
   const int levels = work.cut.levels.largest();
   return {subdomain, kernel, is_first_look ? std::min(levels, kFirstLookLevels) : levels};
 }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/layers/prism_tets.hpp"
 #include "tessera/mesh/lattice.hpp"
@@ -117,6 +119,36 @@ void LayerTables::find_ends()
     end_host_[at(host)] = has_columns(host) ? end_of[at(copies.find(host))] : host;
     has_joints_ = has_joints_ || end_host_[at(host)] != host;
   }
+}
+
+std::vector<LocalIndex> LayerTables::vertices_of_ends(LocalIndex subdomain) const
+{
+  std::vector<LocalIndex> vertices;
+  const auto add_end_of = [&](mesh::HostEntity host) {
+    const mesh::HostEntity end = end_at_tets({host, 0}).host;
+    if (end == host) return;
+    const LocalIndex row = hosts_.row_of(end);
+    const LocalIndex* v = &row;
+    std::ptrdiff_t num_vertices = 1;
+    if (hosts_.kind_of(end) == HostKind::edge) {
+      v = &skeleton_->edge_vertices[2 * at(row)];
+      num_vertices = 2;
+    } else if (hosts_.kind_of(end) == HostKind::triangle) {
+      v = &skeleton_->triangle_vertices[3 * at(row)];
+      num_vertices = 3;
+    }
+    vertices.insert(vertices.end(), v, v + num_vertices);
+  };
+  for (const LocalIndex t : skeleton_->triangles_of(subdomain)) {
+    if (!is_wall_triangle(t)) continue;
+    add_end_of(hosts_.triangle(t));
+    for (std::size_t c = 0; c < 3; ++c) {
+      add_end_of(hosts_.vertex(skeleton_->triangle_vertices[3 * at(t) + c]));
+      add_end_of(hosts_.edge(skeleton_->triangle_edges[3 * at(t) + c]));
+    }
+  }
+  sort_unique(vertices);
+  return vertices;
 }
 
 void LayerTables::count_columns(const mesh::LatticeLevels& levels)

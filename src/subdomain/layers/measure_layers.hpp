@@ -7,8 +7,8 @@
 
 namespace tessera::subdomain {
 
-// Puts what layers add to a piece into its summary, and the areas of its patches, which lie in front
-// of them. Layers that are not positive are folds, whatever has filled the piece.
+// Puts what layers add to a piece into its summary, and the areas of its patches, which lie in
+// front of them. Layers that are not positive are folds, whatever has filled the piece.
 // @param[in,out] summary Of the piece without layers.
 // Throws MeshError if a column is missing. Local.
 void measure_layers(const mesh::Piece& piece, const LayerTables& tables, PieceSummary& summary);

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <span>
 
@@ -16,9 +15,9 @@
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/mesh/lattice_numbering.hpp"
 #include "tessera/mesh/prism.hpp"
-#include "tessera/subdomain/piece_surface.hpp"
 
 #include "subdomain/layers/layer_columns.hpp"
+#include "subdomain/refine/end_places.hpp"
 #include "subdomain/refine/split_names.hpp"
 
 namespace tessera::subdomain {
@@ -27,77 +26,6 @@ namespace {
 namespace lattice = mesh::lattice;
 using lattice::TrianglePoint;
 using Part = lattice::PointPlace::Part;
-
-// A simplex of a surface, by the names of its vertices, in ascending order; which of them was
-// where.
-template <std::size_t N>
-struct NamedSimplex {
-  std::array<mesh::HostPoint, N> names{};
-  std::array<std::size_t, N> was{};
-};
-
-template <std::size_t N>
-NamedSimplex<N> sorted(const std::array<mesh::HostPoint, N>& names)
-{
-  NamedSimplex<N> simplex;
-  std::iota(simplex.was.begin(), simplex.was.end(), 0U);
-  std::ranges::sort(simplex.was, {}, [&](std::size_t i) { return names[i]; });
-  for (std::size_t i = 0; i < N; ++i) simplex.names[i] = names[simplex.was[i]];
-  return simplex;
-}
-
-// Who numbers the points of surfaces across joints, by the simplices of this piece in front of
-// them.
-class EndPlaces {
- public:
-  EndPlaces(const PieceSurroundings& around, const LayerTables& tables)
-      : places_(around.ends), tables_(tables)
-  {
-    if (!places_.vertices.empty()) ends_ = ends_across_joints(around.surface.simplices, tables);
-  }
-
-  // Of point `p` of a triangle with these corners, which has n intervals; no owner if it lies in no
-  // simplex with one.
-  [[nodiscard]] number::SimplexPlace of(const std::array<mesh::HostPoint, 3>& names, LocalIndex n,
-                                        const TrianglePoint& p) const
-  {
-    if (ends_.vertices.empty()) return {};
-    const auto [part, row, k] = lattice::place_of(n, p);
-    if (part == Part::corner) return row_in(ends_.vertices, places_.vertices, end(names[row]));
-    if (part == Part::side) {
-      constexpr std::array<std::array<std::size_t, 2>, 3> kEnds{{{0, 1}, {0, 2}, {1, 2}}};
-      const auto side = sorted<2>({end(names[kEnds[row][0]]), end(names[kEnds[row][1]])});
-      number::SimplexPlace place = row_in(ends_.edges, places_.edges, side.names);
-      place.first += (side.was[0] == 0 ? k : n - k) - 1;
-      return place;
-    }
-    const auto triangle = sorted<3>({end(names[0]), end(names[1]), end(names[2])});
-    number::SimplexPlace place = row_in(ends_.triangles, places_.triangles, triangle.names);
-    const std::array<LocalIndex, 3> steps{n - p.i - p.j, p.i, p.j};
-    place.first += lattice::inner_triangle_index(n, steps[triangle.was[1]], steps[triangle.was[2]]);
-    return place;
-  }
-
- private:
-  [[nodiscard]] mesh::HostPoint end(const mesh::HostPoint& name) const
-  {
-    return tables_.end_at_tets(name);
-  }
-
-  template <class Key>
-  static number::SimplexPlace row_in(const std::vector<Key>& keys,
-                                     const std::vector<number::SimplexPlace>& places,
-                                     const Key& key)
-  {
-    const auto found = std::ranges::lower_bound(keys, key);
-    if (found == keys.end() || *found != key) return {};
-    return places[static_cast<std::size_t>(found - keys.begin())];
-  }
-
-  const number::SurfacePlaces& places_;
-  const LayerTables& tables_;
-  number::SurfaceSimplices ends_{};
-};
 
 // Splits the columns of one piece; lives for one call of split_columns().
 class ColumnSplitter {
@@ -114,7 +42,7 @@ class ColumnSplitter {
         tables_(tables),
         hosts_(refine.skeleton),
         faces_(surface.all().complex.faces),
-        skin_(mesh::skin_complex(refine.skeleton, piece.subdomain)),
+        skin_(surface.skin()),
         names_(surface, refine.skeleton),
         ends_(around, tables),
         numbering_(faces_, points.levels()),
@@ -210,15 +138,15 @@ class ColumnSplitter {
     surface_.for_each_surface_simplex(
         [&](std::size_t simplex, mesh::HostKind kind, LocalIndex first, LocalIndex num_points) {
           for (LocalIndex i = 0; i < num_points; ++i) {
-            if (const auto name = name_of_end(simplex, kind, i))
+            if (const auto name = name_for_ends(simplex, kind, i))
               vertices_[at(first + i)].name = *name;
           }
         });
   }
 
   // Of point `i` of a simplex of the surface, if columns end there.
-  [[nodiscard]] std::optional<mesh::HostPoint> name_of_end(std::size_t simplex, mesh::HostKind kind,
-                                                           LocalIndex i)
+  [[nodiscard]] std::optional<mesh::HostPoint> name_for_ends(std::size_t simplex,
+                                                             mesh::HostKind kind, LocalIndex i)
   {
     if (kind == mesh::HostKind::vertex) {
       const mesh::HostPoint& before = surface_.all().names[simplex];
@@ -374,15 +302,20 @@ class ColumnSplitter {
     for (const Vertex* vertex : with_columns) {
       named.vertices.push_back(vertex->name);
       for (const Vec3& end : vertex->column) append(end, named.point_xyz);
-      if (tables_.has_joints()) named.ends.push_back(name_of(vertex->end));
+      if (tables_.has_joints()) named.ends.push_back(name_of_end(*vertex));
     }
     return named;
   }
 
-  [[nodiscard]] mesh::HostPoint name_of(const number::SimplexPlace& place) const
+  // That which its owner gives.
+  [[nodiscard]] mesh::HostPoint name_of_end(const Vertex& vertex) const
   {
-    if (place.owner == kNoIndex) return {kNoIndex, 0};
-    return {hosts_.piece(place.owner), place.first};
+    if (tables_.end_at_tets(vertex.name) == vertex.name) return {kNoIndex, 0};
+    if (vertex.end.owner == kNoIndex) {
+      throw MeshError(fmt::format("nobody owns the end of the column over vertex {} of host {}",
+                                  vertex.name.index, vertex.name.host));
+    }
+    return {hosts_.piece(vertex.end.owner), vertex.end.first};
   }
 
   const SplitSurface& surface_;
@@ -393,7 +326,7 @@ class ColumnSplitter {
   const LayerTables& tables_;
   mesh::HostLayout hosts_;
   const mesh::Complex& faces_;
-  mesh::Complex skin_;  // Of the subdomain, not of the piece.
+  const mesh::Complex& skin_;  // Of the subdomain, not of the piece.
   SplitNames names_;
   EndPlaces ends_;
   mesh::LatticeNumbering numbering_;

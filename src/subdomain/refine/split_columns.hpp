@@ -15,8 +15,8 @@ namespace tessera::subdomain {
 // The columns of a piece that was split.
 struct SplitColumns {
   mesh::Columns columns{};
-  std::vector<LocalIndex>
-      folded{};  // Triangles of the complex on walls whose layers are not positive.
+  // Triangles of the complex on walls, before the split, whose layers are not positive.
+  std::vector<LocalIndex> folded{};
 };
 
 // A new column is that of the skeleton's lattice. Where its point is held back, it is in the middle

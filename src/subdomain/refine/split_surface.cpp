@@ -24,6 +24,7 @@ SplitSurface::SplitSurface(const mesh::Piece& piece, const PieceSurroundings& ar
       splits_(splits),
       n_(lattice::intervals(splits)),
       all_(make_piece_complex(piece, around.halos, around.surface.simplices)),
+      skin_(mesh::skin_complex(cut.skeleton, piece.subdomain)),
       places_(finder.find(all_.complex.faces, all_.names))
 {
   tie_surface_to_geometry();
@@ -163,8 +164,7 @@ void SplitSurface::order_places_by_need()
 
 mesh::RefinedLattice SplitSurface::known_points(const refine::RefineContext& refine) const
 {
-  const mesh::Complex skin = mesh::skin_complex(cut_.skeleton, piece_.subdomain);
-  mesh::RefinedLattice known = refine::refine_lattice(skin, levels_of(skin), refine);
+  mesh::RefinedLattice known = refine::refine_lattice(skin_, levels_of(skin_), refine);
   const auto num_of_skin = cut_.skeleton.triangles_of(piece_.subdomain).size();
   const std::span<const LocalIndex> others =
       std::span(places_.triangles).subspan(num_of_skin, at(places_.num_known) - num_of_skin);

@@ -40,6 +40,9 @@ class SplitSurface {
   [[nodiscard]] mesh::RefinedLattice points(const mesh::RefinedLattice& known,
                                             const mesh::ProjectionLimiter& limiter) const;
 
+  // That of the subdomain, of the coarse mesh.
+  [[nodiscard]] const mesh::Complex& skin() const { return skin_; }
+
   [[nodiscard]] const GeometryPlaces& places() const { return places_; }
 
   // Intervals of an edge of the piece.
@@ -147,6 +150,7 @@ class SplitSurface {
   int splits_;
   LocalIndex n_;  // Intervals of an edge of the piece.
   PieceComplex all_;
+  mesh::Complex skin_;
   GeometryPlaces places_;
 };
 

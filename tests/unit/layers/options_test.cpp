@@ -35,6 +35,8 @@ TEST(LayerOptions, AThicknessTakesTheNumberThatComesNearest)
 
 TEST(LayerOptions, LeadUpToTheSizeInside)
 {
+  const LayerOptions four{.first = 0.5, .growth = 2.0, .count = 4};
+  EXPECT_EQ(last_height(four), 4.0);
   LayerOptions options{.patch = "wall", .first = 0.1, .growth = 1.2};
   EXPECT_FALSE(is_complete(options));
   options.count = count_up_to(options, 1.0);

@@ -63,7 +63,7 @@ TEST_P(SplitTriangle, HasDenselyNumberedPointsInside)
   const LocalIndex parts = GetParam();
   for (const TriangleGrading& grading : all_gradings()) {
     const SplitPointNumbers numbers(grading, parts);
-    const LocalIndex n = numbers.intervals();
+    const LocalIndex n = parts * grading.finest_intervals();
     std::set<Point> inside;  // By j, then i, as the places of a lattice are.
     const auto add = [&](const TrianglePoint& p) {
       if (lattice::place_of(n, p).part == lattice::PointPlace::Part::inside) {
