@@ -214,6 +214,22 @@ class Rims(LayersTest):
                             radius = (1.0, 0.5)[int(patches.GetValue(cell))]
                             self.assertAlmostEqual(math.dist((x, y, z), (0, 0, 0)), radius, places=9)
 
+    def test_close_at_edges_that_the_material_goes_around(self):
+        """A block in a channel: the columns at the rim of its top would lead off its sides."""
+        block = (
+            "algebraic3d\nsolid channel = orthobrick (-1, -1, 0; 2, 1, 1);\n"
+            "solid block = plane (0, 0, 0; -1, 0, 0) and plane (0.8, 0, 0; 1, 0, 0) and plane (0, -0.4, 0; 0, -1, 0)\n"
+            "  and plane (0, 0.4, 0; 0, 1, 0) and plane (0, 0, -1; 0, 0, -1) and plane (0, 0, 0.4; 0, 0, 1);\n"
+            "solid flow = channel and not block;\ntlo flow;\n"
+        )
+        for name, patch in (("top", "patch_11"), ("sides", "patch_[789]")):
+            with self.subTest(name=name):
+                out = self.mesh(self.case(text=block, patch=patch, max_size=0.2), name)
+                figures = self.checked(out)
+                self.assertGreater(figures["layers"]["covered"], 0.1)
+                self.assertLess(figures["layers"]["covered"], 1.0)
+                self.assertAlmostEqual(figures["volume"], 6.0 - 0.8 * 0.8 * 0.4, places=9)
+
 
 class Room(LayersTest):
     def test_that_is_missing_makes_layers_thinner(self):
