@@ -2,6 +2,7 @@
 #include "tessera/mesh/image_edges.hpp"
 
 #include "tessera/mesh/tet_topology.hpp"
+#include "tessera/mesh/triangle_grading.hpp"
 
 namespace tessera::mesh {
 
@@ -18,14 +19,13 @@ std::vector<ImageEdge> image_edges(const CoarseMesh& mesh, ImageKind kind)
     if (kind == ImageKind::periodic) return sides.patch_transform[at(patch)] != 0;
     return sides.is_joint(patch) == (kind == ImageKind::joints);
   };
-  constexpr std::array<std::array<std::size_t, 2>, 3> kSides{{{0, 1}, {0, 2}, {1, 2}}};
   std::vector<ImageEdge> edges;
   for (LocalIndex f = 0; !sides.are_none() && f < mesh.num_faces(); ++f) {
     if (sides.face_origin[at(f)] == kNoIndex || !is_meant(f)) continue;
     const auto from = corners_of(sides.face_origin[at(f)]);
     const auto to = corners_of(f);
     const LocalIndex transform = sides.patch_transform[at(mesh.face_patch[at(f)])];
-    for (const auto& [a, b] : kSides) {
+    for (const auto& [a, b] : kSideEnds) {
       edges.push_back({{from[a], from[b]}, {to[a], to[b]}, transform});
     }
   }

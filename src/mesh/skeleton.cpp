@@ -8,6 +8,7 @@
 
 #include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/tet_topology.hpp"
+#include "tessera/mesh/triangle_grading.hpp"
 
 #include "mesh/skeleton_orbits.hpp"
 
@@ -167,7 +168,6 @@ template <class IsOne>
 void set_edge_patches(const Skeleton& skeleton, const IsOne& is_one, FlatArray<LocalIndex>& patch,
                       FlatArray<double>& parameters)
 {
-  constexpr std::array<std::array<std::size_t, 2>, 3> kSideCorners{{{0, 1}, {0, 2}, {1, 2}}};
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
     if (skeleton.triangle_patch[at(t)] == kNoIndex || !is_one(t)) continue;
     for (std::size_t side = 0; side < 3; ++side) {
@@ -175,7 +175,7 @@ void set_edge_patches(const Skeleton& skeleton, const IsOne& is_one, FlatArray<L
       if (patch[edge] != kNoIndex) continue;
       patch[edge] = skeleton.triangle_patch[at(t)];
       for (std::size_t end = 0; end < 2; ++end) {
-        const double* uv = &skeleton.triangle_uv[2 * (3 * at(t) + kSideCorners[side][end])];
+        const double* uv = &skeleton.triangle_uv[2 * (3 * at(t) + kSideEnds[side][end])];
         std::copy_n(uv, 2, &parameters[2 * (2 * edge + end)]);
       }
     }
