@@ -24,6 +24,7 @@
 #include "tessera/model/stl_file.hpp"
 #include "tessera/model/triangle_surface.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/optimize/instruction_set.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/column_folds.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
@@ -58,12 +59,34 @@ const subdomain::LayerTables* get(const std::optional<subdomain::LayerTables>& l
   return layers ? &*layers : nullptr;
 }
 
+// Jobs allocate arrays and give them back all the time. Kept, their memory serves the next arrays;
+// otherwise the kernel takes the pages away and clears them anew. Huge pages are hundreds of times
+// fewer to touch. What loads have given back goes to the kernel: a job that uses such a page would
+// first have to copy it. All are matters of speed only, so nothing is done about a refusal.
+void renew_heap()
+{
+  constexpr int kLargestThreshold = 32 << 20;  // What is larger, malloc maps on its own.
+  constexpr int kReserved = 512 << 20;         // Addresses, not memory; more is ordinary heap.
+  constexpr std::uintptr_t kHugePage = 2 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  ::malloc_trim(0);
+  mallopt(M_TOP_PAD, kReserved);
+  void* volatile grown = std::malloc(kLargestThreshold / 2);  // Makes the heap longer by the pad.
+  const auto begin = (reinterpret_cast<std::uintptr_t>(grown) + kHugePage - 1) & ~(kHugePage - 1);
+  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) & ~(kHugePage - 1);
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  std::free(grown);
+  mallopt(M_TOP_PAD, kLargestThreshold);
+}
+
 // State of the model zygote; jobs are forked from it.
 class MeshWorker final : public jobs::Worker {
  public:
   void load(std::span<const std::byte> message) override
   {
     std::visit([this](auto&& one) { take(std::move(one)); }, from_bytes<Load>(message));
+    renew_heap();
   }
 
   Bytes run(std::span<const std::byte> request) override
@@ -302,10 +325,13 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const ImproveRequest& request) const
   {
-    const LocalIndex region = request.region;
-    const improve::RegionMesh mesh = region_mesh(request.bands, *regions_, region);
-    const auto optimizer = replaceable_parts().optimizer(optimizer_of(region), region);
-    return to_bytes(subdomain::improve_tets(mesh, improve_options_.rounds, *optimizer));
+    std::vector<subdomain::RegionRecord> improved;
+    for (const auto& [region, bands] : request.regions) {
+      const improve::RegionMesh mesh = region_mesh(bands, *regions_, region);
+      const auto optimizer = replaceable_parts().optimizer(optimizer_of(region), region);
+      improved.push_back(subdomain::improve_tets(mesh, improve_options_.rounds, *optimizer));
+    }
+    return to_bytes(improved);
   }
 
   [[nodiscard]] Bytes answer(const RefineTask& task) const
@@ -386,31 +412,16 @@ class MeshWorker final : public jobs::Worker {
   std::optional<Refinement> refinement_{};         ///< If pieces are to be split further.
 };
 
-// Jobs allocate arrays and give them back all the time. Kept, their memory serves the next arrays;
-// otherwise the kernel takes the pages away and clears them anew. Huge pages are hundreds of times
-// fewer to touch. Both are matters of speed only, so nothing is done about a refusal.
-void keep_heap()
-{
-  constexpr int kLargestThreshold = 32 << 20;  // What is larger, malloc maps on its own.
-  constexpr int kReserved = 512 << 20;         // Addresses, not memory; more is ordinary heap.
-  constexpr std::uintptr_t kHugePage = 2 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
-  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-  mallopt(M_TOP_PAD, kReserved);
-  void* volatile grown = std::malloc(kLargestThreshold / 2);  // Makes the heap longer by the pad.
-  const auto begin = (reinterpret_cast<std::uintptr_t>(grown) + kHugePage - 1) & ~(kHugePage - 1);
-  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) & ~(kHugePage - 1);
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-  std::free(grown);
-  mallopt(M_TOP_PAD, kLargestThreshold);
-}
-
 }  // namespace
 
 std::unique_ptr<jobs::Worker> make_mesh_worker()
 {
-  keep_heap();
+  renew_heap();
+  // VTK looks for the range of each array it writes, and would start threads for that in each job.
+  ::setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 1);
   netgen::load_library();
+  // Found once: to ask the processor takes long where it is a virtual one.
+  static_cast<void>(optimize::available_instruction_sets());
   return std::make_unique<MeshWorker>();
 }
 

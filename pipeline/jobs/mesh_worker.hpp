@@ -179,10 +179,17 @@ struct FillTask {
 /// FillResults. If one is folded there is no record. Needs model, mesh and plan.
 [[nodiscard]] Bytes fill_request(const FillTask& task);
 
-/// @brief run: improves one region; result: bytes of a subdomain::RegionRecord. Needs mesh and
-/// improvement. Nothing is read or stored.
-/// @param[in] bands Bytes of an improve::Band for each of the region's subdomains, in their order.
-[[nodiscard]] Bytes improve_request(LocalIndex region, const std::vector<Bytes>& bands);
+/// @brief One region of an improve job, and the tets that it lies in.
+struct RegionToImprove {
+  LocalIndex region = kNoIndex;
+  std::vector<Bytes> bands{};  ///< Each of an improve::Band, in the order of the subdomains.
+
+  static auto fields(auto& self) { return std::tie(self.region, self.bands); }
+};
+
+/// @brief run: improves some regions, each by itself; result: bytes of a vector of their
+/// subdomain::RegionRecords, in their order. Needs mesh and improvement. Nothing is read or stored.
+[[nodiscard]] Bytes improve_request(std::vector<RegionToImprove> regions);
 
 /// @brief The mesh that such a job works on. Local.
 [[nodiscard]] improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,

@@ -109,9 +109,9 @@ Bytes untangle_request(const std::vector<UntangleTest>& tests,
 
 Bytes fill_request(const FillTask& task) { return to_bytes(Request(task)); }
 
-Bytes improve_request(LocalIndex region, const std::vector<Bytes>& bands)
+Bytes improve_request(std::vector<RegionToImprove> regions)
 {
-  return to_bytes(Request(ImproveRequest{region, bands}));
+  return to_bytes(Request(ImproveRequest{std::move(regions)}));
 }
 
 improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,

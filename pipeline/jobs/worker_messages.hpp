@@ -155,10 +155,9 @@ struct UntangleRequest {
 };
 
 struct ImproveRequest {
-  LocalIndex region = kNoIndex;
-  std::vector<Bytes> bands{};  ///< Each of an improve::Band, in the order of the subdomains.
+  std::vector<RegionToImprove> regions{};
 
-  static auto fields(auto& self) { return std::tie(self.region, self.bands); }
+  static auto fields(auto& self) { return std::tie(self.regions); }
 };
 
 struct SkinRequest {

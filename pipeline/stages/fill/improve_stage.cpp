@@ -81,7 +81,7 @@ RegionsByPhase pieces_of_phases(const improve::SeamRegions& regions, const Regio
   return pieces;
 }
 
-std::int64_t total_size(const RegionsByPhase& lists)
+std::int64_t total_size(const auto& lists)
 {
   std::int64_t size = 0;
   for (const auto& list : lists) size += std::ssize(list);
@@ -102,10 +102,52 @@ void drop_records_of_other_pieces(const std::vector<subdomain::PieceSummary>& pi
   store.put(name, record);
 }
 
+// Regions that one job improves.
+struct RegionBatch {
+  std::vector<LocalIndex> regions{};
+  double num_tets = 0.0;  // As num_tets_around().
+};
+
+using BatchesByPhase = std::array<std::vector<RegionBatch>, improve::kNumPhases>;
+
+// Of the pieces that the regions lie in: a bound of their work that is known before bands are.
+double num_tets_around(const std::vector<LocalIndex>& some, const improve::SeamRegions& regions,
+                       const std::vector<subdomain::PieceSummary>& pieces)
+{
+  double sum = 0.0;
+  for (const LocalIndex region : some) {
+    for (const LocalIndex s : regions.subdomains_of(region)) {
+      sum += static_cast<double>(pieces[at(s)].num_tets);
+    }
+  }
+  return sum;
+}
+
+// The regions of a phase, some to a job. To start a job takes as long as to improve several small
+// regions, but a rank that is done must not wait long for others.
+std::vector<RegionBatch> batches_of(const std::vector<LocalIndex>& wanted,
+                                    const improve::SeamRegions& regions,
+                                    const std::vector<subdomain::PieceSummary>& pieces,
+                                    int num_ranks)
+{
+  constexpr double kMostTets = 200'000.0;
+  constexpr double kLeastBatchesOfRank = 8.0;
+  const double most = std::min(
+      kMostTets, num_tets_around(wanted, regions, pieces) / (kLeastBatchesOfRank * num_ranks));
+  std::vector<RegionBatch> batches;
+  for (const LocalIndex region : wanted) {
+    const double num_tets = num_tets_around({region}, regions, pieces);
+    if (batches.empty() || batches.back().num_tets + num_tets > most) batches.emplace_back();
+    batches.back().regions.push_back(region);
+    batches.back().num_tets += num_tets;
+  }
+  return batches;
+}
+
 // What the improvement works on; the same on every rank.
 struct SeamWork {
   const improve::SeamRegions& regions;
-  RegionsByPhase wanted{};  // Regions.
+  BatchesByPhase batches{};
   RegionsByPhase pieces{};  // That take part.
 
   [[nodiscard]] bool takes_part(LocalIndex piece, int phase) const
@@ -143,9 +185,9 @@ class SeamImprover {
   {
     const auto row = static_cast<std::size_t>(phase);
     if (phase > 0) make_bands(phase, work_.pieces[row]);
-    const Counts counts = improve_regions(work_.wanted[row]);
+    const Counts counts = improve_regions(work_.batches[row]);
     context_.log.debug(
-        fmt::format("improve: phase {}: regions, {}", phase, work_.wanted[row].size()));
+        fmt::format("improve: phase {}: {} jobs of regions", phase, work_.batches[row].size()));
     Improvement& improvement = filled_.improvement;
     improvement.num_regions += counts[0];
     improvement.num_improved += counts[1];
@@ -238,64 +280,71 @@ class SeamImprover {
         summary.num_interior_vertices + static_cast<GlobalIndex>(lists.shared.owned.size());
   }
 
-  [[nodiscard]] double num_tets_around(LocalIndex region) const
-  {
-    double sum = 0.0;
-    for (const LocalIndex s : work_.regions.subdomains_of(region)) {
-      sum += static_cast<double>(filled_.pieces[at(s)].num_tets);
-    }
-    return sum;
-  }
-
-  [[nodiscard]] Counts improve_regions(const std::vector<LocalIndex>& wanted)
+  [[nodiscard]] Counts improve_regions(const std::vector<RegionBatch>& batches)
   {
     std::vector<double> weights;
-    for (const LocalIndex region : wanted) weights.push_back(num_tets_around(region));
+    for (const RegionBatch& batch : batches) weights.push_back(batch.num_tets);
     Counts counts(4, 0);
     for_each_dynamic(
         heaviest_first(weights),
         [&](LocalIndex row, const auto& on_wait) {
-          const LocalIndex region = wanted[at(row)];
-          add(counts_of(improve(region, weights[at(row)], on_wait)), counts);
+          improve(batches[at(row)].regions, on_wait);
+          for (const LocalIndex region : batches[at(row)].regions) {
+            add(counts_of(pieces_->find_region(region)), counts);
+          }
         },
         stage_, context_, num_done_);
-    num_done_ += std::ssize(wanted);
+    num_done_ += std::ssize(batches);
     pieces_->records().share();
     context_.comm.sum_in_place(counts);
     return counts;
   }
 
-  // A region that fails keeps its tets: they are those of valid pieces.
-  subdomain::RegionRecord improve(LocalIndex region, double num_tets,
-                                  const jobs::JobRunner::WaitCallback& on_wait)
+  // Keeps a record of each region. If their job fails each gets a job of its own, which shows the
+  // one to blame: that keeps its tets, as they are those of valid pieces.
+  void improve(std::vector<LocalIndex> regions, const jobs::JobRunner::WaitCallback& on_wait)
   {
-    if (pieces_->has_region(region)) return pieces_->find_region(region);
-    const std::string name = fmt::format("improve: region {}", region);
-    const std::vector<Bytes> bands = pieces_->bands_of(region);
-    const Bytes request = improve_request(region, bands);
-    const jobs::JobLimits limits = job_limits(run_case_.fill, num_tets);
+    std::erase_if(regions, [&](LocalIndex region) { return pieces_->has_region(region); });
+    if (regions.empty()) return;
+    const Bytes request = request_for(regions);
+    const jobs::JobLimits limits =
+        job_limits(run_case_.fill, num_tets_around(regions, work_.regions, filled_.pieces));
+    const std::string name = fmt::format("improve: region {}", fmt::join(regions, ", "));
     const JobRequest job{name, request, limits};
     auto [made, end, cpu_s] =
-        attempt_job(job, from_bytes<subdomain::RegionRecord>, on_wait, context_);
+        attempt_job(job, from_bytes<std::vector<subdomain::RegionRecord>>, on_wait, context_);
     throw_unless_of_the_job(end);
-    if (!made) {
-      made = subdomain::RegionRecord{
-          .has_failed = true, .was_limited = depends_on_machine(end), .reason = end.message};
-      keep_failure(region, job, end, bands);
+    if (made) {
+      for (std::size_t i = 0; i < regions.size(); ++i) keep(regions[i], made->at(i));
+    } else if (regions.size() > 1) {
+      for (const LocalIndex region : regions) improve({region}, on_wait);
+    } else {
+      keep(regions.front(),
+           {.has_failed = true, .was_limited = depends_on_machine(end), .reason = end.message});
+      keep_failure(regions.front(), job, end);
     }
-    pieces_->keep_region(region, *made);
-    if (!made->is_improved)
-      context_.log.debug(fmt::format("{} stays as it is: {}", name, made->reason));
-    return *std::move(made);
   }
 
-  void keep_failure(LocalIndex region, const JobRequest& job, const jobs::JobEnd& end,
-                    const std::vector<Bytes>& bands)
+  [[nodiscard]] Bytes request_for(const std::vector<LocalIndex>& regions) const
+  {
+    std::vector<RegionToImprove> all;
+    for (const LocalIndex region : regions) all.push_back({region, pieces_->bands_of(region)});
+    return improve_request(std::move(all));
+  }
+
+  void keep(LocalIndex region, const subdomain::RegionRecord& record)
+  {
+    pieces_->keep_region(region, record);
+    if (record.is_improved) return;
+    context_.log.debug(fmt::format("improve: region {} stays as it is: {}", region, record.reason));
+  }
+
+  void keep_failure(LocalIndex region, const JobRequest& job, const jobs::JobEnd& end)
   {
     const auto kept = keep_failed_job(job, job.request, end, context_);
     keep_meshes_of_failed_region(
-        kept, [&] { return region_mesh(bands, work_.regions, region); }, cut_.coarse,
-        cut_.decomposition, context_);
+        kept, [&] { return region_mesh(pieces_->bands_of(region), work_.regions, region); },
+        cut_.coarse, cut_.decomposition, context_);
   }
 
   const config::Case& run_case_;
@@ -340,11 +389,14 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
 {
   const auto regions =
       std::make_shared<const improve::SeamRegions>(cut.skeleton, cut.decomposition);
-  SeamWork work{.regions = *regions, .wanted = wanted_regions(*regions, kernels)};
-  const std::int64_t num_regions = total_size(work.wanted);
-  work.pieces = pieces_of_phases(*regions, work.wanted);
-  const std::int64_t num_steps = num_regions + total_size(work.pieces) + std::ssize(filled.pieces);
-  StageScope stage(context, Stage::improve, num_steps, "regions and pieces");
+  const RegionsByPhase wanted = wanted_regions(*regions, kernels);
+  SeamWork work{.regions = *regions, .pieces = pieces_of_phases(*regions, wanted)};
+  std::ranges::transform(wanted, work.batches.begin(), [&](const auto& some) {
+    return batches_of(some, *regions, filled.pieces, context.comm.size());
+  });
+  const std::int64_t num_steps =
+      total_size(work.batches) + total_size(work.pieces) + std::ssize(filled.pieces);
+  StageScope stage(context, Stage::improve, num_steps, "jobs and pieces");
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
     const fs::path folder = store_folder(context.folder);
@@ -356,7 +408,7 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
   for (int phase = 0; phase < improve::kNumPhases; ++phase) improver.run_phase(phase);
   FilledPieces all = std::move(improver).number_shared_vertices();
   stage.finish(
-      fmt::format("{} of {} regions are better", all.improvement.num_improved, num_regions));
+      fmt::format("{} of {} regions are better", all.improvement.num_improved, total_size(wanted)));
   return all;
 }
 
