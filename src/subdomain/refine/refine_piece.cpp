@@ -64,12 +64,13 @@ class PieceSplitter {
     tets = own_tets(std::move(tets));
     if (around_.is_smoothed) smooth_inside(tets);
     RefinedPiece refined;
-    if (!fill::all_positive(tets)) {
+    const bool is_sound = fill::all_positive(tets);
+    if (!is_sound) {
       refined.folds = surface_.limits_at(folded_parents(fill::subdivide(all_.complex, points)));
     }
     const auto of_layers = surface_.limits_at_triangles(columns.folded);
     refined.folds.insert(refined.folds.end(), of_layers.begin(), of_layers.end());
-    if (!fill::all_positive(tets) || !columns.folded.empty()) {
+    if (!is_sound || !columns.folded.empty()) {
       refined.filled.result.summary = before;
       refined.filled.result.summary.is_folded = true;
       return refined;
