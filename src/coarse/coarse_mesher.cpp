@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/base/repair.hpp"
+#include "tessera/coarse/optimize_domain.hpp"
 
 #include "coarse/domains/lattice_fill.hpp"
 
@@ -18,11 +19,11 @@ surface::DomainTets CoarseMesher::mesh_domain(const surface::DomainSkin& skin,
     return fill_domain(hole, options);
   };
   auto tets = fill_with_lattice(skin, options, filler);
-  if (tets) return improve_domain(skin, std::move(*tets));
+  if (tets) return optimize_domain(skin, std::move(*tets));
   if (is_left_out(Repair::netgen_tets)) throw MeshError("a domain cannot be filled with a lattice");
   tets = fill_domain(skin, options);
   note_repair(Repair::netgen_tets);
-  return improve_domain(skin, std::move(*tets));
+  return optimize_domain(skin, std::move(*tets));
 }
 
 std::vector<surface::DomainTets> CoarseMesher::mesh_domains(

@@ -54,12 +54,6 @@ surface::DomainTets ModelMesher::fill_domain(const surface::DomainSkin& skin,
   return netgen::fill_domain(skin, options);
 }
 
-surface::DomainTets ModelMesher::improve_domain(const surface::DomainSkin& skin,
-                                                surface::DomainTets tets) const
-{
-  return netgen::improve_domain(skin, std::move(tets));
-}
-
 mesh::CoarseMesh ModelMesher::generate(const surface::CoarseOptions& options,
                                        const NetgenMeshUser& use) const
 {

@@ -59,8 +59,6 @@ class ModelMesher final : public coarse::CoarseMesher {
                                                     const cut::CutTree& planes) const override;
   [[nodiscard]] surface::DomainTets fill_domain(
       const surface::DomainSkin& skin, const surface::CoarseOptions& options) const override;
-  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
-                                                   surface::DomainTets tets) const override;
 
   /// @brief As generate(options), and lets `use` go on with the mesh in NETGEN. There NETGEN can do
   /// what Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.

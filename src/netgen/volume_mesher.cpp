@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +12,6 @@
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
-#include "tessera/base/repair.hpp"
-#include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/surface/touching_faces.hpp"
 
 #include "netgen/fill/skin_mesh.hpp"
@@ -25,20 +22,9 @@
 namespace tessera::netgen {
 namespace {
 
-// Of optimising and making legal what came of it: then vertices are moved only.
-constexpr int kMostRounds = 3;
-
 // Attempts of NETGEN to fill what its front has left open. Holes that can be filled need one or
 // two.
 constexpr int kMostStepsOfHole = 2;
-
-void add_all(::netgen::Mesh& mesh, const surface::DomainTets& tets)
-{
-  for (std::size_t v = mesh.GetNP(); v < tets.vertex_xyz.size() / 3; ++v) {
-    mesh.AddPoint(to_point3d(point_at(std::span(tets.vertex_xyz), v)));
-  }
-  add_tets(mesh, tets.tet_vertices);
-}
 
 surface::DomainTets tets_in(::netgen::Mesh& mesh, const surface::DomainSkin& skin)
 {
@@ -73,35 +59,7 @@ surface::DomainTets first_tets(const surface::DomainSkin& skin, NetgenSession& s
   add_skin(mesh, skin);
   set_sizes(mesh, skin.model_box, session.parameters());
   mesh_volume(session.parameters(), mesh);
-  ::netgen::RemoveIllegalElements(mesh);
   return tets_in(mesh, skin);
-}
-
-// A tet with two faces on one patch has children that become flat where the patch is smooth. Our
-// optimiser knows no patches and may make some.
-std::optional<surface::DomainTets> without_illegal_tets(const surface::DomainSkin& skin,
-                                                        const surface::DomainTets& tets)
-{
-  ::netgen::Mesh mesh;
-  add_skin(mesh, skin);
-  add_all(mesh, tets);
-  mesh.CalcSurfacesOfNode();
-  const int num_illegal = mesh.MarkIllegalElements();
-  if (num_illegal == 0 || is_left_out(Repair::illegal_tets)) return std::nullopt;
-  note_repair(Repair::illegal_tets, num_illegal);
-  ::netgen::RemoveIllegalElements(mesh);
-  return tets_in(mesh, skin);
-}
-
-surface::DomainTets better_tets(const surface::DomainSkin& skin, surface::DomainTets tets)
-{
-  for (int round = 0; round < kMostRounds; ++round) {
-    tets = coarse::optimize_domain(std::move(tets));
-    auto legal = without_illegal_tets(skin, tets);
-    if (!legal) return coarse::mend_domain(std::move(tets));
-    tets = std::move(*legal);
-  }
-  return coarse::mend_domain(coarse::smooth_domain(std::move(tets)));
 }
 
 }  // namespace
@@ -128,13 +86,6 @@ surface::DomainTets fill_domain(const surface::DomainSkin& skin,
   } catch (const NetgenError& error) {
     throw NetgenError(error.what() + touching_words(skin));
   }
-}
-
-surface::DomainTets improve_domain(const surface::DomainSkin& skin, surface::DomainTets tets)
-{
-  if (skin.vertex.empty()) return tets;
-  NetgenSession session;
-  return session.run("coarse volume mesh", [&] { return better_tets(skin, std::move(tets)); });
 }
 
 }  // namespace tessera::netgen

@@ -13,9 +13,4 @@ namespace tessera::netgen {
 [[nodiscard]] surface::DomainTets fill_domain(const surface::DomainSkin& skin,
                                               const surface::CoarseOptions& options);
 
-/// @brief Better tets in the same skin: by our optimiser, which is some twenty times faster than
-/// NETGEN's, and by NETGEN where it left a tet with two faces on one patch. Local.
-[[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
-                                                 surface::DomainTets tets);
-
 }  // namespace tessera::netgen

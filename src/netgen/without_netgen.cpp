@@ -50,12 +50,6 @@ class OwnMesher final : public coarse::CoarseMesher {
     refuse("mesh a CAD model");
   }
 
-  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& /*skin*/,
-                                                   surface::DomainTets tets) const override
-  {
-    return tets;
-  }
-
  private:
   const geometry::LoadedModel& model_;
 };

@@ -15,10 +15,13 @@ using Corner = LocalIndex;
 
 using TetVertices = std::array<LocalIndex, 4>;
 
-// Across a face of the boundary that is an outer triangle; kNoIndex is across the others.
+// Across a face of the boundary that is an outer triangle of group 0, and of any; kNoIndex is
+// across the others.
 inline constexpr Corner kOuterFace = -2;
+[[nodiscard]] constexpr Corner outer_face(LocalIndex group) noexcept { return kOuterFace - group; }
 
 [[nodiscard]] constexpr bool is_boundary(Corner across) noexcept { return across < 0; }
+[[nodiscard]] constexpr bool is_outer(Corner across) noexcept { return across <= kOuterFace; }
 
 [[nodiscard]] constexpr LocalIndex tet_of(Corner corner) noexcept { return corner >> 2; }
 

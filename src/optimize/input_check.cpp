@@ -41,6 +41,8 @@ void require_sizes(const TetMesh& mesh)
   require(fits(mesh.tet_neighbours.size(), mesh.tet_vertices.size()),
           "neighbours of tets are not four each");
   require(mesh.outer_triangles.size() % 3 == 0, "vertices of outer triangles are not three each");
+  require(fits(mesh.outer_group.size(), mesh.outer_triangles.size() / 3),
+          "groups of outer triangles are not one each");
 }
 
 // Which corner is no vertex, or stands in a tet twice, is only looked for where something is wrong.
@@ -76,6 +78,9 @@ void require_outer_in_range(const TetMesh& mesh)
   const auto is_known = [&](LocalIndex v) { return v >= 0 && v < num_vertices; };
   require(std::ranges::all_of(mesh.outer_triangles, is_known),
           "an outer triangle has a vertex that the mesh does not have");
+  const auto is_number = [](LocalIndex group) { return group >= 0; };
+  require(std::ranges::all_of(mesh.outer_group, is_number),
+          "a group of outer triangles is less than 0");
 }
 
 // Where a coordinate is not finite, or so large that lengths would not be.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "tessera/mesh/tet_topology.hpp"
@@ -144,27 +143,21 @@ void write_tet(WorkingMesh& mesh, LocalIndex t, const TetVertices& vertices, dou
   }
 }
 
-// How many outer faces tets have beside one each. `counts`: of each tet.
-std::size_t num_in_excess(std::span<const std::uint8_t> counts)
-{
-  std::size_t num = 0;
-  for (const std::uint8_t count : counts) num += std::max<std::size_t>(count, 1) - 1;
-  return num;
-}
-
-// Whether more outer faces would share a tet with another one.
+// Whether more outer faces would share a tet with another one of their group.
 bool gathers_outer_faces(const WorkingMesh& mesh, const Replacement& change,
                          const std::vector<Link>& links)
 {
-  std::vector<std::uint8_t> counts(change.new_tets.size(), 0);
+  std::vector<std::array<Corner, 4>> across(change.new_tets.size(), {0, 0, 0, 0});
   for (const Link& link : links) {
-    if (link.first.is_outside && link.first.side == kOuterFace) ++counts[at(tet_of(link.second))];
+    if (link.first.is_outside)
+      across[at(tet_of(link.second))][at(link.second & 3)] = link.first.side;
   }
-  const std::size_t after = num_in_excess(counts);
+  std::size_t after = 0;
+  for (const auto& faces : across) after += num_doubled_faces(faces);
   if (after == 0) return false;
-  counts.clear();
-  for (const LocalIndex t : change.old_tets) counts.push_back(num_outer_faces(mesh, t));
-  return after > num_in_excess(counts);
+  std::size_t before = 0;
+  for (const LocalIndex t : change.old_tets) before += num_doubled_faces(mesh, t);
+  return after > before;
 }
 
 void write_link(WorkingMesh& mesh, const std::vector<LocalIndex>& slots, const Link& link)

@@ -19,7 +19,7 @@ struct Replacement {
 //
 // False, and nothing is done, if the boundaries differ. That is so where a mesh overlaps itself,
 // and an edge or a vertex has one neighbour twice. So it is, too, if more outer faces than before
-// would share a tet with another one.
+// would share a tet with another one of their group.
 [[nodiscard]] bool replace_tets(WorkingMesh& mesh, const Replacement& change);
 
 }  // namespace tessera::optimize

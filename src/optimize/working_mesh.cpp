@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -115,19 +116,22 @@ void fix_vertices(const TetMesh& input, WorkingMesh& mesh)
 void mark_outer_faces(const TetMesh& input, const std::vector<LocalIndex>& new_vertex,
                       WorkingMesh& mesh)
 {
-  std::vector<std::array<LocalIndex, 3>> outer;
+  std::vector<std::pair<std::array<LocalIndex, 3>, LocalIndex>> outer;  // With their groups.
   outer.reserve(input.outer_triangles.size() / 3);
-  for (std::size_t i = 0; i + 2 < input.outer_triangles.size(); i += 3) {
-    const LocalIndex* v = &input.outer_triangles[i];
-    outer.push_back(
-        mesh::sorted_triangle(new_vertex[at(v[0])], new_vertex[at(v[1])], new_vertex[at(v[2])]));
+  for (std::size_t i = 0; i < input.outer_triangles.size() / 3; ++i) {
+    const LocalIndex* v = &input.outer_triangles[3 * i];
+    outer.emplace_back(
+        mesh::sorted_triangle(new_vertex[at(v[0])], new_vertex[at(v[1])], new_vertex[at(v[2])]),
+        input.outer_group.empty() ? 0 : input.outer_group[i]);
   }
   std::ranges::sort(outer);
   for (Corner corner = 0; at(corner) < mesh.tet_vertices.size(); ++corner) {
     if (!is_boundary(mesh.tet_neighbours[at(corner)])) continue;
     const auto [a, b, c] = face_vertices(mesh.tet_vertices, corner);
-    if (!std::ranges::binary_search(outer, mesh::sorted_triangle(a, b, c))) continue;
-    mesh.tet_neighbours[at(corner)] = kOuterFace;
+    const auto face = mesh::sorted_triangle(a, b, c);
+    const auto found = std::ranges::lower_bound(outer, std::pair(face, LocalIndex{0}));
+    if (found == outer.end() || found->first != face) continue;
+    mesh.tet_neighbours[at(corner)] = outer_face(found->second);
     mesh.has_outer_faces = true;
   }
 }
@@ -263,10 +267,13 @@ void refresh_energies(WorkingMesh& mesh)
   mesh.are_energies_stale = false;
 }
 
-std::uint8_t num_outer_faces(const WorkingMesh& mesh, LocalIndex tet)
+std::size_t num_doubled_faces(std::span<const Corner, 4> across)
 {
-  const LocalIndex* across = &mesh.tet_neighbours[4 * at(tet)];
-  return static_cast<std::uint8_t>(std::count(across, across + 4, kOuterFace));
+  std::size_t num = 0;
+  for (auto face = across.begin(); face != across.end(); ++face) {
+    if (is_outer(*face) && std::find(across.begin(), face, *face) != face) ++num;
+  }
+  return num;
 }
 
 LocalIndex count_not_positive(const WorkingMesh& mesh)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -73,8 +75,12 @@ struct WorkingMesh {
 // fixed vertices are the flagged ones alone.
 [[nodiscard]] WorkingMesh make_smoothing_mesh(const TetMesh& mesh);
 
-// Of a tet, from 0 to 4.
-[[nodiscard]] std::uint8_t num_outer_faces(const WorkingMesh& mesh, LocalIndex tet);
+// Of a tet, by what lies across its faces: outer faces beside the first one of each group, 0 to 3.
+[[nodiscard]] std::size_t num_doubled_faces(std::span<const Corner, 4> across);
+[[nodiscard]] inline std::size_t num_doubled_faces(const WorkingMesh& mesh, LocalIndex tet)
+{
+  return num_doubled_faces(std::span(mesh.tet_neighbours).subspan(4 * at(tet)).first<4>());
+}
 
 // A free vertex of no tet.
 [[nodiscard]] LocalIndex add_vertex(WorkingMesh& mesh, const Vec3& position);

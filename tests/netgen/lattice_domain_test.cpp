@@ -141,11 +141,6 @@ class GivesUpOnHoles : public coarse::CoarseMesher {
     if (skin.is_hole) throw NetgenError("a hole");
     return mesher_.fill_domain(skin, options);
   }
-  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
-                                                   surface::DomainTets tets) const override
-  {
-    return mesher_.improve_domain(skin, std::move(tets));
-  }
 
  private:
   const coarse::CoarseMesher& mesher_;

@@ -33,10 +33,6 @@ class CoarseMesher {
   [[nodiscard]] virtual surface::DomainTets fill_domain(
       const surface::DomainSkin& skin, const surface::CoarseOptions& options) const = 0;
 
-  /// @brief Better tets in the same skin, with the same boundary. A pure function of the arguments.
-  [[nodiscard]] virtual surface::DomainTets improve_domain(const surface::DomainSkin& skin,
-                                                           surface::DomainTets tets) const = 0;
-
   /// @brief Tets of one domain of such a surface: with a lattice inside, where that can be done.
   [[nodiscard]] virtual surface::DomainTets mesh_domain(
       const surface::DomainSkin& skin, const surface::CoarseOptions& options) const;

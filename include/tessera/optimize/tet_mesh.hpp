@@ -28,6 +28,10 @@ struct TetMesh {
   /// order. No swap or collapse gives a tet a second one; Step::divide divides those that have
   /// several. Others than those of the boundary are ignored. Optional.
   std::vector<LocalIndex> outer_triangles{};
+
+  /// Shape (num_outer): a number >= 0 of each outer triangle; a tet should have one of each number
+  /// at most. Optional: without it all have the same.
+  std::vector<LocalIndex> outer_group{};
 };
 
 }  // namespace tessera::optimize

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/coarse/optimize_domain.hpp"
 
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "tessera/base/repair.hpp"
@@ -9,36 +11,32 @@
 namespace tessera::coarse {
 namespace {
 
-surface::DomainTets optimized(surface::DomainTets tets, const optimize::Schedule& schedule)
-{
-  optimize::OptimizeResult better = optimize::optimize(
-      {.vertex_xyz = std::move(tets.vertex_xyz), .tet_vertices = std::move(tets.tet_vertices)},
-      schedule);
-  note_repair(Repair::worst_tets, better.statistics.num_insertions);
-  return {std::move(better.vertex_xyz), std::move(better.tet_vertices)};
-}
+constexpr std::string_view kSteps = "msmscmscmscmscwdsmmmwwtsmmmwww";
+
+// Vertices put into the worst tets: their corners are all on the skin, as across a thin wall, so
+// neither moves nor swaps help.
+constexpr std::string_view kStepsOfWorst = "tiwwiwwiww";
 
 }  // namespace
 
-surface::DomainTets optimize_domain(surface::DomainTets tets)
+surface::DomainTets optimize_domain(const surface::DomainSkin& skin, surface::DomainTets tets)
 {
-  const optimize::Schedule schedule{
-      .steps = optimize::parse_steps("msmscmscmscmscwtsmmmwwtsmmmwww"),
-      .collapse_below = 0.85,
-      .collapse_reach = 0.95};
-  return optimized(std::move(tets), schedule);
-}
-
-surface::DomainTets smooth_domain(surface::DomainTets tets)
-{
-  return optimized(std::move(tets), {.steps = optimize::parse_steps("tmmww")});
-}
-
-surface::DomainTets mend_domain(surface::DomainTets tets)
-{
-  if (is_left_out(Repair::worst_tets)) return tets;
-  return optimized(std::move(tets),
-                   {.steps = optimize::parse_steps("iwwiwwiww"), .insert_below = 0.35});
+  if (skin.vertex.empty()) return tets;
+  optimize::TetMesh mesh{.vertex_xyz = std::move(tets.vertex_xyz),
+                         .tet_vertices = std::move(tets.tet_vertices)};
+  if (!is_left_out(Repair::illegal_tets)) {
+    mesh.outer_triangles = skin.triangle_vertices;
+    mesh.outer_group = skin.triangle_patch;
+  }
+  std::string steps(kSteps);
+  if (!is_left_out(Repair::worst_tets)) steps += kStepsOfWorst;
+  optimize::OptimizeResult better = optimize::optimize(mesh, {.steps = optimize::parse_steps(steps),
+                                                              .collapse_below = 0.85,
+                                                              .collapse_reach = 0.95,
+                                                              .insert_below = 0.35});
+  note_repair(Repair::illegal_tets, better.statistics.num_divided);
+  note_repair(Repair::worst_tets, better.statistics.num_insertions);
+  return {std::move(better.vertex_xyz), std::move(better.tet_vertices)};
 }
 
 }  // namespace tessera::coarse

@@ -13,12 +13,14 @@
 namespace tessera::optimize {
 namespace {
 
-bool is_outer(const WorkingMesh& mesh, Corner corner)
+// Whether both have outer faces opposite to them, of one group.
+bool are_doubled(const WorkingMesh& mesh, Corner one, Corner other)
 {
-  return mesh.tet_neighbours[at(corner)] == kOuterFace;
+  const Corner across = mesh.tet_neighbours[at(one)];
+  return is_outer(across) && mesh.tet_neighbours[at(other)] == across;
 }
 
-// A way to share out the outer faces of a tet among several tets.
+// A way to share out the outer faces of a tet, those of one group, among several tets.
 class Division {
  public:
   explicit Division(const WorkingMesh& mesh) : mesh_(&mesh) {}
@@ -99,14 +101,14 @@ Division with_edge_cut(const WorkingMesh& mesh, LocalIndex t, const TetEdge& edg
 }
 
 // Each of the three tets around the new edge has a face of either old one, opposite to one corner
-// of the face that goes. Not both may be outer.
+// of the face that goes. Not both may be outer faces of one group.
 bool would_part_outer_faces(const WorkingMesh& mesh, Corner corner)
 {
   const LocalIndex other = tet_of(mesh.tet_neighbours[at(corner)]);
   return std::ranges::none_of(face_of(corner), [&](Corner c) {
     Corner of_other = 4 * other;
     while (mesh.tet_vertices[at(of_other)] != mesh.tet_vertices[at(c)]) ++of_other;
-    return is_outer(mesh, c) && is_outer(mesh, of_other);
+    return are_doubled(mesh, c, of_other);
   });
 }
 
@@ -135,7 +137,7 @@ Division best_division(const WorkingMesh& mesh, LocalIndex t)
   };
   for (Corner c = 4 * t; c < 4 * t + 4; ++c) consider(with_face_exchanged(mesh, c));
   for (const TetEdge& edge : kTetEdges) {
-    if (is_outer(mesh, 4 * t + edge.a) && is_outer(mesh, 4 * t + edge.b)) {
+    if (are_doubled(mesh, 4 * t + edge.a, 4 * t + edge.b)) {
       consider(with_edge_cut(mesh, t, edge));
     }
   }
@@ -147,9 +149,9 @@ Division best_division(const WorkingMesh& mesh, LocalIndex t)
 void divide_pass(WorkingMesh& mesh)
 {
   refresh_energies(mesh);
-  const LocalIndex num_slots = mesh.num_slots();  // New tets have one outer face at most.
+  const LocalIndex num_slots = mesh.num_slots();  // New tets have one outer face of a group.
   for (LocalIndex t = 0; t < num_slots; ++t) {
-    if (mesh.is_free_slot(t) || num_outer_faces(mesh, t) < 2) continue;
+    if (mesh.is_free_slot(t) || num_doubled_faces(mesh, t) == 0) continue;
     const Division best = best_division(mesh, t);
     if (!(best.worst_energy() <= kHighestEnergy)) continue;
     mesh.statistics.num_divided += best.apply(mesh) ? 1 : 0;
