@@ -11,7 +11,7 @@
 namespace tessera::coarse {
 namespace {
 
-constexpr std::string_view kSteps = "msmscmscmscmscwdsmmmwwtsmmmwww";
+constexpr std::string_view kSteps = "msdmscmscmscmscwtsmmmwwtsmmmwww";
 
 // Vertices put into the worst tets: their corners are all on the skin, as across a thin wall, so
 // neither moves nor swaps help.
