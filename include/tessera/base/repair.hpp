@@ -60,7 +60,7 @@ enum class Repair : int {
   lattice_holes,     ///< NETGEN fills holes where triangles of the surface are no faces of Delaunay
                      ///< tets.
   netgen_tets,       ///< NETGEN fills a domain, as that cannot be done with a lattice.
-  illegal_tets,      ///< Tets with two faces on one patch are taken out.
+  illegal_tets,      ///< Tets with two faces on one patch are divided.
   worst_tets,        ///< Vertices are put into the worst tets.
   snapped_vertices,  ///< Vertices that are off the geometry are put onto it.
   // Fills.

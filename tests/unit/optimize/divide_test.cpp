@@ -155,6 +155,13 @@ TEST(Divide, ExchangesAFaceWhereThatIsBetter)
   const OptimizeResult more = optimize(mesh, {.steps = parse_steps("d")});
   EXPECT_EQ(more.vertex_origin.size(), 6U);
   EXPECT_EQ(num_corner_tets(mesh, more), 0U);
+
+  mesh.outer_group = {1, 1, 2};  // It brings together two that may meet.
+  const OptimizeResult in_groups = optimize(mesh, {.steps = parse_steps("d")});
+  EXPECT_EQ(in_groups.vertex_origin.size(), 5U);
+
+  mesh.outer_group = {1, 2, 2};  // No tet has two of one group.
+  EXPECT_EQ(optimize(mesh, {.steps = parse_steps("d")}).statistics.num_divided, 0);
 }
 
 TEST(Divide, LeavesAMeshAloneThatHasNone)
@@ -190,6 +197,12 @@ TEST(Divide, RefusesOuterTrianglesThatCannotBe)
        {std::vector<LocalIndex>{0, 1}, {0, 1, 4}, {0, -1, 2}}) {
     TetMesh mesh = one_tet();
     mesh.outer_triangles = wrong;
+    EXPECT_THROW(static_cast<void>(optimize(mesh, {.steps = parse_steps("d")})), MeshError);
+  }
+  for (const std::vector<LocalIndex>& wrong : {std::vector<LocalIndex>{0, 0}, {-1}}) {
+    TetMesh mesh = one_tet();
+    mesh.outer_triangles = {0, 1, 2};
+    mesh.outer_group = wrong;
     EXPECT_THROW(static_cast<void>(optimize(mesh, {.steps = parse_steps("d")})), MeshError);
   }
 }
