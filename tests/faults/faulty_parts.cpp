@@ -144,7 +144,13 @@ Place place_of(const pipeline::FillTask& task)  // Other kernels are no third-pa
   if (task.how.kernel != fill::KernelKind::netgen) return {};
   return {"fill", task.first};
 }
-Place place_of(const pipeline::ImproveRequest& request) { return {"improve", request.region}; }
+Place place_of(const pipeline::ImproveRequest& request)  // Of the first region with a fault.
+{
+  for (const pipeline::RegionToImprove& one : request.regions) {
+    if (!kind_at("improve", one.region).empty()) return {"improve", one.region};
+  }
+  return {};
+}
 Place place_of(const pipeline::RefineTask& task)
 {
   return {"refine", task.pieces.front().piece.subdomain};
@@ -182,10 +188,11 @@ Bytes spoilt(const pipeline::CoarseDomainRequest& request, Bytes result)
 }
 Bytes spoilt(const pipeline::ImproveRequest& request, Bytes result)
 {
-  if (kind_at("improve", request.region) != "lose") return result;
-  auto record = from_bytes<subdomain::RegionRecord>(result);
-  lose_a_tet(record.updates);
-  return to_bytes(record);
+  auto records = from_bytes<std::vector<subdomain::RegionRecord>>(result);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (kind_at("improve", request.regions[i].region) == "lose") lose_a_tet(records[i].updates);
+  }
+  return to_bytes(records);
 }
 
 class FaultyWorker final : public jobs::Worker {

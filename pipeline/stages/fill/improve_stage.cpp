@@ -311,11 +311,15 @@ class SeamImprover {
         job_limits(run_case_.fill, num_tets_around(regions, work_.regions, filled_.pieces));
     const std::string name = fmt::format("improve: region {}", fmt::join(regions, ", "));
     const JobRequest job{name, request, limits};
-    auto [made, end, cpu_s] =
-        attempt_job(job, from_bytes<std::vector<subdomain::RegionRecord>>, on_wait, context_);
+    const auto read = [&](const Bytes& result) {
+      auto records = from_bytes<std::vector<subdomain::RegionRecord>>(result);
+      if (records.size() != regions.size()) throw InputError("it is of other regions");
+      return records;
+    };
+    auto [made, end, cpu_s] = attempt_job(job, read, on_wait, context_);
     throw_unless_of_the_job(end);
     if (made) {
-      for (std::size_t i = 0; i < regions.size(); ++i) keep(regions[i], made->at(i));
+      for (std::size_t i = 0; i < regions.size(); ++i) keep(regions[i], (*made)[i]);
     } else if (regions.size() > 1) {
       for (const LocalIndex region : regions) improve({region}, on_wait);
     } else {
