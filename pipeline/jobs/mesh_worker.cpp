@@ -67,16 +67,22 @@ void renew_heap()
 {
   constexpr int kLargestThreshold = 32 << 20;  // What is larger, malloc maps on its own.
   constexpr int kReserved = 512 << 20;         // Addresses, not memory; more is ordinary heap.
+  constexpr std::size_t kMostBlocks = 64;
   constexpr std::uintptr_t kHugePage = 2 << 20;
   mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   ::malloc_trim(0);
   mallopt(M_TOP_PAD, kReserved);
-  void* volatile grown = std::malloc(kLargestThreshold / 2);  // Makes the heap longer by the pad.
-  const auto begin = (reinterpret_cast<std::uintptr_t>(grown) + kHugePage - 1) & ~(kHugePage - 1);
+  const auto old_end = reinterpret_cast<std::uintptr_t>(::sbrk(0));
+  std::vector<void*> blocks;  // Until one is behind the old end, which makes the heap longer.
+  do {
+    blocks.push_back(std::malloc(kLargestThreshold / 2));
+  } while (reinterpret_cast<std::uintptr_t>(blocks.back()) < old_end
+           && blocks.size() < kMostBlocks);
+  const auto begin = (old_end + kHugePage - 1) & ~(kHugePage - 1);
   const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) & ~(kHugePage - 1);
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-  std::free(grown);
+  for (void* const block : blocks) std::free(block);
   mallopt(M_TOP_PAD, kLargestThreshold);
 }
 
@@ -418,7 +424,8 @@ std::unique_ptr<jobs::Worker> make_mesh_worker()
 {
   renew_heap();
   // VTK looks for the range of each array it writes, and would start threads for that in each job.
-  ::setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 1);
+  // Who has chosen a backend keeps it.
+  ::setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);
   netgen::load_library();
   // Found once: to ask the processor takes long where it is a virtual one.
   static_cast<void>(optimize::available_instruction_sets());

@@ -26,7 +26,7 @@ struct Improvement {
   std::shared_ptr<const ImprovedPieces> pieces{};  ///< nullptr: they are as they were filled.
   GlobalIndex num_regions = 0;                     ///< That were tried.
   GlobalIndex num_improved = 0;  ///< Of these; the others were not better, or their job failed.
-  GlobalIndex num_failed = 0;    ///< Jobs that died or found nothing valid.
+  GlobalIndex num_failed = 0;    ///< Whose own job died or found nothing valid.
   GlobalIndex num_limited = 0;   ///< Of these, for time or memory: not reproducible.
   double volume_before = 0.0;    ///< Of all pieces, output length unit cubed.
 };

@@ -78,9 +78,11 @@ void require_outer_in_range(const TetMesh& mesh)
   const auto is_known = [&](LocalIndex v) { return v >= 0 && v < num_vertices; };
   require(std::ranges::all_of(mesh.outer_triangles, is_known),
           "an outer triangle has a vertex that the mesh does not have");
-  const auto is_number = [](LocalIndex group) { return group >= 0; };
+  const auto is_number = [](LocalIndex group) {
+    return group >= 0 && group < std::numeric_limits<LocalIndex>::max();
+  };
   require(std::ranges::all_of(mesh.outer_group, is_number),
-          "a group of outer triangles is less than 0");
+          "a group of outer triangles is less than 0, or too large");
 }
 
 // Where a coordinate is not finite, or so large that lengths would not be.

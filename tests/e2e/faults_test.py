@@ -249,7 +249,7 @@ class WithAMesh(FaultsTest):
                 self.assertGreater(region.stat().st_size, 0)
             self.assert_conforms(fault)
 
-        self.for_all(on_both_ranks("improve", ("memory", "segv", "sleep")), look)
+        self.for_all(on_both_ranks("improve", ("memory", "segv", "sleep", "garbage")), look)
 
 
 class OtherCommands(FaultsTest):

@@ -129,7 +129,7 @@ class Baffle(SplitsTest):
     def test_stays_alike_where_one_side_has_layers_and_edges_have_levels(self):
         more = (
             "size.target = 0.2\n[[size.region]]\nsize = 0.05\nball = { centre = [0.5, 0, 0.4], radius = 0.2 }\n"
-            "[[layer]]\npatch = 'crack_plus'\nfirst = 0.04\ncount = 3\n")
+            "[[layer]]\npatch = 'crack_plus'\nfirst = 0.03\ncount = 3\n")
         case = self.case("baffle", more=more)
         case.write_text(case.read_text().replace("refine.levels = 1\n", "").replace("coarse.max_size = 0.4\n", ""))
         out = self.mesh(case, "out", ranks=2)

@@ -192,7 +192,7 @@ Bytes spoilt(const pipeline::ImproveRequest& request, Bytes result)
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (kind_at("improve", request.regions[i].region) == "lose") lose_a_tet(records[i].updates);
   }
-  return to_bytes(records);
+  return garbled_if_asked("improve", place_of(request).item, to_bytes(records));
 }
 
 class FaultyWorker final : public jobs::Worker {

@@ -23,7 +23,7 @@ struct Statistics {
   GlobalIndex num_swaps = 0;       ///< Edges removed and faces exchanged.
   GlobalIndex num_collapses = 0;   ///< Vertices removed by collapses.
   GlobalIndex num_insertions = 0;  ///< Vertices put in.
-  GlobalIndex num_divided = 0;     ///< Tets with several outer triangles that were divided.
+  GlobalIndex num_divided = 0;     ///< Tets that Step::divide has divided.
 };
 
 /// @brief A better mesh with the same boundary.
@@ -49,8 +49,8 @@ struct OptimizeOptions {
 /// Promises, each for every valid input:
 /// - Fixed vertices and boundary triangles are those of the input, bit by bit.
 /// - Every tet is positive (kLeastMeanRatio), so the volume is that of the input to rounding.
-/// - No step makes a tet that is worse than the worst of the input. So the smallest mean ratio does
-///   not fall, but for rounding.
+/// - No step but Step::divide makes a tet that is worse than the worst of the input. So without it
+///   the smallest mean ratio does not fall, but for rounding.
 /// - Vertices of the input that are left keep their order; so fixed vertices that come first stay
 ///   first. Tets lie along a space-filling curve through the input.
 /// - The result depends on the arguments alone: passes are counted, not timed, and every

@@ -14,8 +14,8 @@ enum class Step : char {
   collapse,      ///< [c] Free vertices are merged into neighbours.
   insert,        ///< [i] New vertices take the place of bad tets and of those around them.
   tighten,       ///< [t] From here on no tet gets worse than the worst one of now.
-  divide,        ///< [d] Tets with several outer triangles are divided; the worst one of now is
-                 ///< the bound from here on.
+  divide,  ///< [d] Tets with several outer triangles of one group are divided; the worst one of now
+           ///< is the bound from here on.
 };
 
 /// @brief What an optimisation does, in order, and where. All bounds are mean ratios in [0, 1].

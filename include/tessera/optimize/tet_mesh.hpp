@@ -24,13 +24,13 @@ struct TetMesh {
   /// Optional: a caller that knows the neighbours saves the search for them. It is checked.
   std::vector<LocalIndex> tet_neighbours{};
 
-  /// Shape (num_outer, 3): triangles of the boundary of which a tet should have one at most, in any
-  /// order. No swap or collapse gives a tet a second one; Step::divide divides those that have
-  /// several. Others than those of the boundary are ignored. Optional.
+  /// Shape (num_outer, 3): triangles of the boundary of which a tet should have one of each group
+  /// at most, in any order. No swap or collapse gives a tet a second one; Step::divide divides
+  /// those that have several. Others than those of the boundary are ignored. Optional.
   std::vector<LocalIndex> outer_triangles{};
 
-  /// Shape (num_outer): a number >= 0 of each outer triangle; a tet should have one of each number
-  /// at most. Optional: without it all have the same.
+  /// Shape (num_outer): the group of each outer triangle, from 0 to 2^31 - 2. Optional: without it
+  /// all are of one.
   std::vector<LocalIndex> outer_group{};
 };
 

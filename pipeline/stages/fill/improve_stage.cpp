@@ -288,10 +288,7 @@ class SeamImprover {
     for_each_dynamic(
         heaviest_first(weights),
         [&](LocalIndex row, const auto& on_wait) {
-          improve(batches[at(row)].regions, on_wait);
-          for (const LocalIndex region : batches[at(row)].regions) {
-            add(counts_of(pieces_->find_region(region)), counts);
-          }
+          improve(batches[at(row)].regions, on_wait, counts);
         },
         stage_, context_, num_done_);
     num_done_ += std::ssize(batches);
@@ -302,31 +299,48 @@ class SeamImprover {
 
   // Keeps a record of each region. If their job fails each gets a job of its own, which shows the
   // one to blame: that keeps its tets, as they are those of valid pieces.
-  void improve(std::vector<LocalIndex> regions, const jobs::JobRunner::WaitCallback& on_wait)
+  void improve(std::vector<LocalIndex> regions, const jobs::JobRunner::WaitCallback& on_wait,
+               Counts& counts)
   {
-    std::erase_if(regions, [&](LocalIndex region) { return pieces_->has_region(region); });
+    std::erase_if(regions, [&](LocalIndex region) {
+      const bool is_there = pieces_->has_region(region);
+      if (is_there) add(counts_of(pieces_->find_region(region)), counts);
+      return is_there;
+    });
     if (regions.empty()) return;
     const Bytes request = request_for(regions);
-    const jobs::JobLimits limits =
-        job_limits(run_case_.fill, num_tets_around(regions, work_.regions, filled_.pieces));
+    const jobs::JobLimits limits = limits_of(regions);
     const std::string name = fmt::format("improve: region {}", fmt::join(regions, ", "));
     const JobRequest job{name, request, limits};
     const auto read = [&](const Bytes& result) {
       auto records = from_bytes<std::vector<subdomain::RegionRecord>>(result);
-      if (records.size() != regions.size()) throw InputError("it is of other regions");
-      return records;
+      if (records.size() == regions.size()) return records;
+      throw InputError(fmt::format("it has {} regions, not {}", records.size(), regions.size()));
     };
-    auto [made, end, cpu_s] = attempt_job(job, read, on_wait, context_);
+    const auto [made, end, cpu_s] = attempt_job(job, read, on_wait, context_);
     throw_unless_of_the_job(end);
     if (made) {
-      for (std::size_t i = 0; i < regions.size(); ++i) keep(regions[i], (*made)[i]);
+      for (std::size_t i = 0; i < regions.size(); ++i) keep(regions[i], (*made)[i], counts);
     } else if (regions.size() > 1) {
-      for (const LocalIndex region : regions) improve({region}, on_wait);
+      context_.log.debug(fmt::format("{}: {}; each gets a job of its own", name, end.message));
+      for (const LocalIndex region : regions) improve({region}, on_wait, counts);
     } else {
       keep(regions.front(),
-           {.has_failed = true, .was_limited = depends_on_machine(end), .reason = end.message});
+           {.has_failed = true, .was_limited = depends_on_machine(end), .reason = end.message},
+           counts);
       keep_failure(regions.front(), job, end);
     }
+  }
+
+  // Those of the least region: what several can do within them, each could do alone. So it does not
+  // depend on the number of ranks, as batches do, which regions meet a limit.
+  [[nodiscard]] jobs::JobLimits limits_of(const std::vector<LocalIndex>& regions) const
+  {
+    double least = num_tets_around(regions, work_.regions, filled_.pieces);
+    for (const LocalIndex region : regions) {
+      least = std::min(least, num_tets_around({region}, work_.regions, filled_.pieces));
+    }
+    return job_limits(run_case_.fill, least);
   }
 
   [[nodiscard]] Bytes request_for(const std::vector<LocalIndex>& regions) const
@@ -336,9 +350,10 @@ class SeamImprover {
     return improve_request(std::move(all));
   }
 
-  void keep(LocalIndex region, const subdomain::RegionRecord& record)
+  void keep(LocalIndex region, const subdomain::RegionRecord& record, Counts& counts)
   {
     pieces_->keep_region(region, record);
+    add(counts_of(record), counts);
     if (record.is_improved) return;
     context_.log.debug(fmt::format("improve: region {} stays as it is: {}", region, record.reason));
   }

@@ -21,7 +21,6 @@ constexpr std::string_view kStepsOfWorst = "tiwwiwwiww";
 
 surface::DomainTets optimize_domain(const surface::DomainSkin& skin, surface::DomainTets tets)
 {
-  if (skin.vertex.empty()) return tets;
   optimize::TetMesh mesh{.vertex_xyz = std::move(tets.vertex_xyz),
                          .tet_vertices = std::move(tets.tet_vertices)};
   if (!is_left_out(Repair::illegal_tets)) {
