@@ -84,7 +84,8 @@ class ProcessorFaces {
     others.erase(piece.number);
     for (const LocalIndex other : others) {
       add_seam(other);
-      for (std::size_t k = 0; k < layout.patches.size(); ++k) add_cyclic_seam(layout, k, other);
+      for (const std::size_t k : seam_order(outline, layout, other))
+        add_cyclic_seam(layout, k, other);
     }
   }
 
@@ -111,6 +112,25 @@ class ProcessorFaces {
     add_patch(std::move(patch), foam_patch_faces(piece_, layout.names.patches[k].tag));
     for (GlobalIndex i = 0; i < list_.patches.back().num_faces; ++i)
       list_.serial.push_back(layout.patches[k].faces.of(piece_.number) + i + 1);
+  }
+
+  // OpenFOAM's processors pair their patches by the order in which they have them. So the later of
+  // two pieces has, in the place of each periodic patch, the partner of it.
+  [[nodiscard]] std::vector<std::size_t> seam_order(const Outline& outline,
+                                                    const FoamLayout& layout,
+                                                    LocalIndex other) const
+  {
+    const auto& patches = layout.names.patches;
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      const auto cyclic = foam_patch_entry(outline, layout.names, k).cyclic;
+      if (!cyclic) continue;
+      const auto partner = std::ranges::find_if(
+          patches, [&](const auto& patch) { return patch.name == cyclic->neighbour; });
+      order.push_back(piece_.number < other ? k
+                                            : static_cast<std::size_t>(partner - patches.begin()));
+    }
+    return order;
   }
 
   // And those whose partners are in another piece.
