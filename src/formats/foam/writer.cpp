@@ -125,8 +125,7 @@ class ProcessorFaces {
     for (std::size_t k = 0; k < patches.size(); ++k) {
       const auto cyclic = foam_patch_entry(outline, layout.names, k).cyclic;
       if (!cyclic) continue;
-      const auto partner = std::ranges::find_if(
-          patches, [&](const auto& patch) { return patch.name == cyclic->neighbour; });
+      const auto partner = std::ranges::find(patches, cyclic->neighbour, &FoamPatch::name);
       order.push_back(piece_.number < other ? k
                                             : static_cast<std::size_t>(partner - patches.begin()));
     }
