@@ -24,16 +24,6 @@ LocalIndex index_in(std::span<const LocalIndex> sorted, LocalIndex value)
 }
 
 template <std::size_t N>
-std::vector<std::array<LocalIndex, N>> rows_of(std::span<const LocalIndex> flat)
-{
-  std::vector<std::array<LocalIndex, N>> rows(flat.size() / N);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    std::copy_n(flat.begin() + static_cast<std::ptrdiff_t>(N * r), N, rows[r].begin());
-  }
-  return rows;
-}
-
-template <std::size_t N>
 std::vector<LocalIndex> flat_of(const std::vector<std::array<LocalIndex, N>>& rows)
 {
   std::vector<LocalIndex> flat;
@@ -55,10 +45,9 @@ void add_edges(const std::vector<Triangle>& triangles, Complex& out)
   for (const Triangle& triangle : triangles) {
     for (const Edge& side : sides_of(triangle)) sides.push_back(side);
   }
-  const RowTable<2> edges(sides);
-  out.triangle_edges.reserve(sides.size());
-  for (const Edge& side : sides) out.triangle_edges.push_back(edges.index_of(side));
-  out.edge_vertices = flat_of(edges.rows());
+  NumberedRows<2> edges = number_rows(sides);
+  out.triangle_edges = std::move(edges.row_of);
+  out.edge_vertices = flat_of(edges.rows);
 }
 
 }  // namespace
@@ -117,20 +106,32 @@ Complex skin_complex(const Skeleton& skeleton, LocalIndex subdomain)
 
 namespace {
 
+// Rows of the skeleton by its vertices; kNoIndex for rows with a vertex off it.
+template <std::size_t N>
+std::vector<LocalIndex> find_rows(std::span<const LocalIndex> flat,
+                                  const std::vector<LocalIndex>& vertex_skeleton,
+                                  std::span<const LocalIndex> skeleton)
+{
+  std::vector<LocalIndex> found;
+  found.reserve(flat.size() / N);
+  for (std::size_t r = 0; N * r < flat.size(); ++r) {
+    std::array<LocalIndex, N> row;
+    for (std::size_t c = 0; c < N; ++c) row[c] = vertex_skeleton[at(flat[N * r + c])];
+    const bool is_off = std::ranges::find(row, kNoIndex) != row.end();
+    found.push_back(is_off ? kNoIndex : find_row<N>(skeleton, row));
+  }
+  return found;
+}
+
 void tie_to_skeleton(const Skeleton& skeleton, Complex& complex)
 {
   for (const LocalIndex v : complex.vertex_coarse) {
     complex.vertex_skeleton.push_back(index_in(skeleton.vertex_coarse, v));
   }
-  const auto of_vertex = [&](LocalIndex v) { return complex.vertex_skeleton[at(v)]; };
-  for (const Edge& e : rows_of<2>(complex.edge_vertices)) {
-    complex.edge_skeleton.push_back(
-        find_row<2>(skeleton.edge_vertices, {of_vertex(e[0]), of_vertex(e[1])}));
-  }
-  for (const Triangle& t : rows_of<3>(complex.triangle_vertices)) {
-    complex.triangle_skeleton.push_back(find_row<3>(
-        skeleton.triangle_vertices, {of_vertex(t[0]), of_vertex(t[1]), of_vertex(t[2])}));
-  }
+  const std::vector<LocalIndex>& vertices = complex.vertex_skeleton;
+  complex.edge_skeleton = find_rows<2>(complex.edge_vertices, vertices, skeleton.edge_vertices);
+  complex.triangle_skeleton =
+      find_rows<3>(complex.triangle_vertices, vertices, skeleton.triangle_vertices);
 }
 
 }  // namespace
@@ -152,37 +153,48 @@ std::array<LocalIndex, 6> edges_of_tet(const TetComplex& complex, LocalIndex tet
   return edges;
 }
 
+namespace {
+
+// Gives each value its rank among the different ones, and returns these, ascending.
+// @param[in] bound Above all values.
+std::vector<LocalIndex> rank_values(std::vector<LocalIndex>& values, LocalIndex bound)
+{
+  std::vector<LocalIndex> different;
+  if (at(bound) > values.size()) {  // To go through what is not there would take longer.
+    different = values;
+    sort_unique(different);
+    for (LocalIndex& value : values) value = index_in(different, value);
+    return different;
+  }
+  std::vector<LocalIndex> rank(at(bound), kNoIndex);
+  for (const LocalIndex value : values) rank[at(value)] = 0;
+  for (LocalIndex value = 0; value < bound; ++value) {
+    if (rank[at(value)] == kNoIndex) continue;
+    rank[at(value)] = static_cast<LocalIndex>(different.size());
+    different.push_back(value);
+  }
+  for (LocalIndex& value : values) value = rank[at(value)];
+  return different;
+}
+
+}  // namespace
+
 TetComplex tet_complex(const CoarseMesh& coarse, const Skeleton& skeleton,
                        std::span<const LocalIndex> tets)
 {
   TetComplex out;
   Complex& faces = out.faces;
   out.tets.assign(tets.begin(), tets.end());
-  for (const LocalIndex t : tets) {
-    const auto tet = coarse.tet(t);
-    faces.vertex_coarse.insert(faces.vertex_coarse.end(), tet.begin(), tet.end());
-  }
-  sort_unique(faces.vertex_coarse);
-
   out.tet_vertices.reserve(4 * tets.size());
   for (const LocalIndex t : tets) {
-    for (const LocalIndex v : coarse.tet(t)) {
-      out.tet_vertices.push_back(index_in(faces.vertex_coarse, v));
-    }
+    const auto tet = coarse.tet(t);
+    out.tet_vertices.insert(out.tet_vertices.end(), tet.begin(), tet.end());
   }
-  std::vector<Triangle> sides;
-  sides.reserve(4 * tets.size());
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    const LocalIndex* v = &out.tet_vertices[4 * t];
-    for (const auto& c : kTetFaceCorners) {
-      sides.push_back(sorted_triangle(v[c[0]], v[c[1]], v[c[2]]));
-    }
-  }
-  const RowTable<3> triangles(sides);
-  out.tet_triangles.reserve(sides.size());
-  for (const Triangle& side : sides) out.tet_triangles.push_back(triangles.index_of(side));
-  faces.triangle_vertices = flat_of(triangles.rows());
-  add_edges(triangles.rows(), faces);
+  faces.vertex_coarse = rank_values(out.tet_vertices, coarse.num_vertices());
+  NumberedRows<3> triangles = number_rows(faces_of_tets(out.tet_vertices));
+  out.tet_triangles = std::move(triangles.row_of);
+  faces.triangle_vertices = flat_of(triangles.rows);
+  add_edges(triangles.rows, faces);
   tie_to_skeleton(skeleton, faces);
   return out;
 }

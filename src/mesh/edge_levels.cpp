@@ -2,51 +2,52 @@
 #include "tessera/mesh/edge_levels.hpp"
 
 #include <algorithm>
-#include <array>
-#include <span>
 #include <utility>
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/lattice.hpp"
-#include "tessera/mesh/sorted_rows.hpp"
 
 namespace tessera::mesh {
-namespace {
 
-using Edge = std::array<LocalIndex, 2>;
-
-Edge row_of(std::span<const LocalIndex> edge_vertices, std::size_t row)
-{
-  return {edge_vertices[2 * row], edge_vertices[2 * row + 1]};
-}
-
-}  // namespace
-
-EdgeLevels::EdgeLevels(FlatArray<LocalIndex> edge_vertices, FlatArray<std::int8_t> levels)
-    : edge_vertices_(std::move(edge_vertices)), levels_(std::move(levels))
+EdgeLevels::EdgeLevels(const std::vector<LocalIndex>& edge_vertices, FlatArray<std::int8_t> levels)
+    : levels_(std::move(levels))
 {
   if (levels_.empty()) return;
+  for (std::size_t edge = 0; edge < levels_.size(); ++edge) {
+    first_edge_.resize(at(edge_vertices[2 * edge]) + 1, static_cast<LocalIndex>(edge));
+    upper_vertex_.push_back(edge_vertices[2 * edge + 1]);
+  }
+  first_edge_.push_back(static_cast<LocalIndex>(levels_.size()));
+  find_largest();
+}
+
+void EdgeLevels::find_largest()
+{
   const auto [least, most] = std::ranges::minmax(levels_);
-  largest_ = most;
-  if (least < most) return;
-  edge_vertices_.clear();
-  levels_.clear();
+  if (least == most)
+    *this = EdgeLevels(most);
+  else
+    largest_ = most;
 }
 
 int EdgeLevels::of(LocalIndex a, LocalIndex b) const
 {
   if (is_uniform()) return largest_;
-  return levels_[at(find_edge_row(edge_vertices_, a, b))];
+  const auto [lower, upper] = std::minmax(a, b);
+  const auto edges = upper_vertex_.begin();
+  const auto found =
+      std::find(edges + first_edge_[at(lower)], edges + first_edge_[at(lower) + 1], upper);
+  return levels_[static_cast<std::size_t>(found - edges)];
 }
 
 template <class Change>
 EdgeLevels EdgeLevels::changed(Change&& change) const
 {
   if (is_uniform()) return change(largest_);
-  FlatArray<std::int8_t> levels;
-  levels.reserve(levels_.size());
-  for (const std::int8_t level : levels_) levels.push_back(static_cast<std::int8_t>(change(level)));
-  return {edge_vertices_, std::move(levels)};
+  EdgeLevels result = *this;
+  for (std::int8_t& level : result.levels_) level = static_cast<std::int8_t>(change(level));
+  result.find_largest();
+  return result;
 }
 
 EdgeLevels EdgeLevels::limited(int most) const
@@ -75,16 +76,21 @@ std::vector<GlobalIndex> EdgeLevels::histogram() const
 
 void EdgeLevels::require_sound() const
 {
-  if (edge_vertices_.size() != 2 * levels_.size()) {
+  const bool has_lists = first_edge_.empty()
+                             ? levels_.empty()
+                             : first_edge_.front() == 0 && std::ranges::is_sorted(first_edge_)
+                                   && at(first_edge_.back()) == levels_.size();
+  if (!has_lists || upper_vertex_.size() != levels_.size()) {
     throw InputError("levels of edges: arrays of different lengths");
   }
-  Edge before{-1, -1};
-  for (std::size_t row = 0; row < levels_.size(); ++row) {
-    const Edge edge = row_of(edge_vertices_, row);
-    if (edge[0] < 0 || edge[0] >= edge[1] || edge <= before) {
-      throw InputError("levels of edges: edges do not ascend");
+  for (std::size_t lower = 0; lower + 1 < first_edge_.size(); ++lower) {
+    LocalIndex before = static_cast<LocalIndex>(lower);
+    for (LocalIndex edge = first_edge_[lower]; edge < first_edge_[lower + 1]; ++edge) {
+      if (upper_vertex_[at(edge)] <= before) {
+        throw InputError("levels of edges: edges do not ascend");
+      }
+      before = upper_vertex_[at(edge)];
     }
-    before = edge;
   }
   const auto is_level = [](int level) { return 0 <= level && level <= lattice::kMaxLevels; };
   if (!is_level(largest_) || !std::ranges::all_of(levels_, is_level)) {

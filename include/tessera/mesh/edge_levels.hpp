@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -26,12 +25,13 @@ class EdgeLevels {
   /// @param[in] edge_vertices Shape (num_edges, 2); coarse vertices, each row ascending, and the
   /// rows as well.
   /// @param[in] levels Shape (num_edges).
-  EdgeLevels(FlatArray<LocalIndex> edge_vertices, FlatArray<std::int8_t> levels);
+  EdgeLevels(const std::vector<LocalIndex>& edge_vertices, FlatArray<std::int8_t> levels);
 
   [[nodiscard]] int largest() const { return largest_; }
   [[nodiscard]] bool is_uniform() const { return levels_.empty(); }
 
-  /// @brief Level of the edge between two coarse vertices. O(log n), or O(1) if all are the same.
+  /// @brief Level of the edge between two coarse vertices. Linear in the edges at one of them, or
+  /// O(1) if all are the same.
   /// @pre There is such an edge.
   [[nodiscard]] int of(LocalIndex a, LocalIndex b) const;
 
@@ -59,15 +59,19 @@ class EdgeLevels {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.largest_, self.edge_vertices_, self.levels_);
+    return std::tie(self.largest_, self.first_edge_, self.upper_vertex_, self.levels_);
   }
+
+  void find_largest();
 
   template <class Change>
   [[nodiscard]] EdgeLevels changed(Change&& change) const;
 
   int largest_ = 0;
-  FlatArray<LocalIndex> edge_vertices_{};  ///< Shape (num_edges, 2); ascending.
-  FlatArray<std::int8_t> levels_{};        ///< Shape (num_edges); empty: all are the largest.
+  // Empty if all are the largest.
+  FlatArray<LocalIndex> first_edge_{};    ///< By lower vertex, and the end: where its edges begin.
+  FlatArray<LocalIndex> upper_vertex_{};  ///< Shape (num_edges); ascending for each lower vertex.
+  FlatArray<std::int8_t> levels_{};       ///< Shape (num_edges).
 };
 
 }  // namespace tessera::mesh

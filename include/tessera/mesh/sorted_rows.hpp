@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <utility>
@@ -35,6 +36,45 @@ void sort_by_smallest(std::vector<Row>& rows, SmallestOf smallest_of, Less less)
     std::sort(place(begins[v]), place(begins[v + 1]), less);
   }
   rows = std::move(sorted);
+}
+
+/// @brief Different rows in ascending order, and which of them each given row is.
+template <std::size_t N>
+struct NumberedRows {
+  std::vector<std::array<LocalIndex, N>> rows{};
+  std::vector<LocalIndex> row_of{};  ///< Shape (number of given rows).
+};
+
+/// @brief Finds the different ones of rows of two or three ascending vertices. Linear but for short
+/// runs of the same smallest vertex. @param[in] rows In any order, repeated or not; vertices are
+/// dense.
+template <std::size_t N>
+[[nodiscard]] NumberedRows<N> number_rows(const std::vector<std::array<LocalIndex, N>>& rows)
+{
+  static_assert(N == 2 || N == 3);
+  struct Entry {
+    std::uint64_t others;  // The vertices but for the smallest, in one word.
+    LocalIndex smallest;
+    LocalIndex source;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(rows.size());
+  for (const auto& row : rows) {
+    std::uint64_t others = 0;
+    for (std::size_t c = 1; c < N; ++c) others = others << 32U | static_cast<std::uint64_t>(row[c]);
+    entries.push_back({others, row[0], static_cast<LocalIndex>(entries.size())});
+  }
+  sort_by_smallest(
+      entries, [](const Entry& entry) { return entry.smallest; },
+      [](const Entry& a, const Entry& b) { return a.others < b.others; });
+
+  NumberedRows<N> numbered{.row_of = std::vector<LocalIndex>(rows.size())};
+  for (const Entry& entry : entries) {
+    const auto& row = rows[at(entry.source)];
+    if (numbered.rows.empty() || numbered.rows.back() != row) numbered.rows.push_back(row);
+    numbered.row_of[at(entry.source)] = static_cast<LocalIndex>(numbered.rows.size() - 1);
+  }
+  return numbered;
 }
 
 /// @brief Different rows of N ascending vertices in ascending order, with a quick search.

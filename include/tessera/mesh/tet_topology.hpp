@@ -79,9 +79,19 @@ struct TriangleTets {
   std::array<LocalIndex, 2> corners{kNoIndex, kNoIndex};  ///< Corner of that tet opposite to it.
 };
 
+/// @brief The four faces of each tet, opposite to its corners in their order; a face of two tets
+/// stands twice. Shape (4 * num_tets); vertices of a face ascend. Local.
+/// @param[in] tet_vertices Shape (num_tets, 4).
+[[nodiscard]] std::vector<std::array<LocalIndex, 3>> faces_of_tets(
+    std::span<const LocalIndex> tet_vertices);
+
 /// @brief All triangles of the tets, in ascending order of their vertices. Local; O(n log n).
 /// @param[in] tet_vertices Shape (num_tets, 4).
 /// @throws MeshError if a triangle belongs to more than two tets.
 [[nodiscard]] std::vector<TriangleTets> triangles_of_tets(std::span<const LocalIndex> tet_vertices);
+
+/// @brief Number of different edges. Local; linear. @param[in] tet_vertices Shape (num_tets, 4).
+[[nodiscard]] GlobalIndex count_edges(std::span<const LocalIndex> tet_vertices,
+                                      LocalIndex num_vertices);
 
 }  // namespace tessera::mesh

@@ -9,11 +9,9 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/sort_unique.hpp"
-#include "tessera/fill/subdivide.hpp"
+#include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/number/shared_vertices.hpp"
-
-#include "subdomain/piece_complex.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -83,6 +81,24 @@ mesh::Piece tets_touching(const mesh::Piece& piece, const std::vector<char>& is_
   return some;
 }
 
+// With n intervals an edge.
+GlobalIndex num_interior_points(const mesh::Piece& piece, const number::SurfaceSimplices& surface,
+                                LocalIndex n)
+{
+  const auto num_on_surface = [](const auto& simplices) {
+    return static_cast<GlobalIndex>(simplices.size());
+  };
+  const GlobalIndex num_tets = piece.num_tets();
+  const GlobalIndex on_surface = num_on_surface(surface.triangles);
+  const GlobalIndex vertices = piece.num_vertices() - num_on_surface(surface.vertices);
+  const GlobalIndex edges =
+      mesh::count_edges(piece.tet_vertices, piece.num_vertices()) - num_on_surface(surface.edges);
+  const GlobalIndex triangles = (4 * num_tets - on_surface) / 2;
+  return vertices + edges * mesh::num_points_of_host(mesh::HostKind::edge, n)
+         + triangles * mesh::num_points_of_host(mesh::HostKind::triangle, n)
+         + num_tets * mesh::lattice::num_inner_tet_points(n);
+}
+
 }  // namespace
 
 number::SurfaceList surface_of(const mesh::Piece& piece)
@@ -124,15 +140,13 @@ number::PieceCounts count_split_piece(const mesh::Piece& piece, const number::Su
                                       const LayerTables* layers)
 {
   const LocalIndex n = mesh::lattice::intervals(split.levels);
-  const PieceComplex alone = make_piece_complex(piece, {}, surface.simplices);
-  const fill::SubdivisionCounts inside =
-      fill::count_subdivision(alone.complex, alone.mesh, split.levels);
+  const GlobalIndex num_interior = num_interior_points(piece, surface.simplices, n);
   number::PieceCounts counts{
-      .interior_vertices = inside.interior_vertices,
-      .tets = split.is_curved ? piece.num_tets() : inside.tets,
+      .interior_vertices = num_interior,
+      .tets = GlobalIndex{piece.num_tets()} * (split.is_curved ? 1 : GlobalIndex{n} * n * n),
       .boundary_triangles = GlobalIndex{piece.num_boundary()} * (split.is_curved ? 1 : n * n),
       .line_edges = GlobalIndex{piece.num_line_edges()} * (split.is_curved ? 1 : n),
-      .owned_vertices = inside.interior_vertices + shared.owned.num_points(n)};
+      .owned_vertices = num_interior + shared.owned.num_points(n)};
   if (layers == nullptr) return counts;
   const auto num_hidden = std::ranges::count_if(
       piece.boundary_patch, [&](LocalIndex patch) { return layers->is_hidden(patch); });

@@ -9,6 +9,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/refine/skin.hpp"
 
 namespace tessera::subdomain {
@@ -64,17 +65,22 @@ mesh::Skin SplitSurface::named_skin(const mesh::RefinedLattice& points) const
 void SplitSurface::tie_surface_to_geometry()
 {
   mesh::Skeleton& surface = all_.surface;
-  const std::vector<mesh::TriangleTets> triangles = mesh::triangles_of_tets(own_corners());
   const mesh::Complex& faces = all_.complex.faces;
-  for (const mesh::TriangleTets& triangle : triangles) {
-    if (triangle.tets[1] != kNoIndex) continue;
-    const LocalIndex row = mesh::find_triangle(faces, triangle.vertices);
+  const std::span<const LocalIndex> triangles =
+      std::span(all_.complex.tet_triangles)
+          .subspan(4 * at(all_.first_tet), 4 * at(all_.last_tet - all_.first_tet));
+  std::vector<char> num_tets(at(faces.num_triangles()), 0);
+  for (const LocalIndex row : triangles) ++num_tets[at(row)];
+  for (std::size_t face = 0; face < triangles.size(); ++face) {
+    const LocalIndex row = triangles[face];
+    if (num_tets[at(row)] != 1) continue;
     const LocalIndex own = faces.triangle_skeleton[at(row)];
     if (own == kNoIndex) {
       throw MeshError(fmt::format("piece {} has a face that its list lacks", piece_.subdomain));
     }
     const GeometryPlace& place = places_.of_triangles[at(row)];
-    const bool points_out = is_outward(triangle);
+    const bool points_out =
+        is_outward(all_.first_tet + static_cast<LocalIndex>(face / 4), face % 4);
     LocalIndex* sides = &surface.triangle_subdomains[2 * at(own)];
     sides[points_out ? 0 : 1] = piece_.subdomain;
     sides[points_out ? 1 : 0] = other_side(place);
@@ -191,18 +197,12 @@ mesh::LatticeLevels SplitSurface::levels_of(const mesh::Complex& complex) const
   return levels;
 }
 
-std::span<const LocalIndex> SplitSurface::own_corners() const
+// Whether the ascending orientation of a face of a tet points out of it.
+bool SplitSurface::is_outward(LocalIndex tet, std::size_t corner) const
 {
-  return std::span(all_.mesh.tet_vertices)
-      .subspan(4 * at(all_.first_tet), 4 * at(all_.last_tet - all_.first_tet));
-}
-
-// Whether the ascending orientation of a face of one tet points out of it.
-bool SplitSurface::is_outward(const mesh::TriangleTets& triangle) const
-{
-  const LocalIndex* tet = &own_corners()[4 * at(triangle.tets[0])];
-  const auto& [a, b, c] = mesh::kTetFaceCorners[at(triangle.corners[0])];
-  return mesh::is_even_triangle(tet[a], tet[b], tet[c]);
+  const auto v = all_.mesh.tet(tet);
+  const auto& [a, b, c] = mesh::kTetFaceCorners[corner];
+  return mesh::is_even_triangle(v[a], v[b], v[c]);
 }
 
 // What lies across a face. Beyond a seam it is some piece of the same material.

@@ -11,7 +11,6 @@
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skin.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/mesh/triangle_grading.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
 
@@ -139,8 +138,7 @@ class SplitSurface {
   [[nodiscard]] std::vector<char> needed_places() const;
   void order_places_by_need();
   [[nodiscard]] mesh::LatticeLevels levels_of(const mesh::Complex& complex) const;
-  [[nodiscard]] std::span<const LocalIndex> own_corners() const;
-  [[nodiscard]] bool is_outward(const mesh::TriangleTets& triangle) const;
+  [[nodiscard]] bool is_outward(LocalIndex tet, std::size_t corner) const;
   [[nodiscard]] LocalIndex other_side(const GeometryPlace& place) const;
 
   const mesh::Piece& piece_;

@@ -113,45 +113,57 @@ TEST(EdgeLevels, AreReadAsTheyWereWritten)
 // What a damaged record might hold.
 struct RawLevels {
   std::int32_t largest = 0;
-  std::vector<LocalIndex> edges{};
+  std::vector<LocalIndex> first{};
+  std::vector<LocalIndex> upper{};
   std::vector<std::int8_t> levels{};
 
-  static auto fields(auto& self) { return std::tie(self.largest, self.edges, self.levels); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.largest, self.first, self.upper, self.levels);
+  }
 };
 
-EdgeLevels read(std::int32_t largest, const std::vector<LocalIndex>& edges,
-                const std::vector<std::int8_t>& levels)
-{
-  return from_bytes<EdgeLevels>(to_bytes(RawLevels{largest, edges, levels}));
-}
+const std::vector<LocalIndex> kFirst{0, 2, 4, 4, 4, 5};
+const std::vector<LocalIndex> kUpper{1, 5, 2, 9, 9};
+
+EdgeLevels read(const RawLevels& raw) { return from_bytes<EdgeLevels>(to_bytes(raw)); }
 
 TEST(EdgeLevels, ThatCannotBeAreRefused)
 {
-  EXPECT_EQ(read(3, kEdges, kLevels), EdgeLevels(kEdges, kLevels));
-  EXPECT_EQ(read(2, {}, {}), EdgeLevels(2));
-  EXPECT_THROW(read(-1, {}, {}), InputError);
-  EXPECT_THROW(read(lattice::kMaxLevels + 1, {}, {}), InputError);
-  EXPECT_THROW(read(3, kEdges, {2, 0, 1, 3}), InputError);
-  EXPECT_THROW(read(3, kEdges, {2, 0, 1, 3, -1}), InputError);
-  EXPECT_THROW(read(11, kEdges, {2, 0, 1, 11, 2}), InputError);
-  EXPECT_THROW(read(3, {0, 5, 0, 1, 1, 2, 1, 9, 4, 9}, kLevels), InputError) << "rows descend";
-  EXPECT_THROW(read(3, {0, 1, 0, 1, 1, 2, 1, 9, 4, 9}, kLevels), InputError) << "a row twice";
+  EXPECT_EQ(read({3, kFirst, kUpper, kLevels}), EdgeLevels(kEdges, kLevels));
+  EXPECT_EQ(read({.largest = 2}), EdgeLevels(2));
+  EXPECT_THROW(read({.largest = -1}), InputError);
+  EXPECT_THROW(read({.largest = lattice::kMaxLevels + 1}), InputError);
+  EXPECT_THROW(read({3, kFirst, kUpper, {2, 0, 1, 3}}), InputError);
+  EXPECT_THROW(read({3, kFirst, kUpper, {2, 0, 1, 3, -1}}), InputError);
+  EXPECT_THROW(read({11, kFirst, kUpper, {2, 0, 1, 11, 2}}), InputError);
+  EXPECT_THROW(read({3, kFirst, {1, 5, 2, 9}, kLevels}), InputError);
+}
+
+TEST(EdgeLevels, WhoseListsAreNoneAreRefused)
+{
+  EXPECT_THROW(read({3, {}, kUpper, kLevels}), InputError);
+  EXPECT_THROW(read({3, {0, 2, 4, 4, 4}, kUpper, kLevels}), InputError) << "another end";
+  EXPECT_THROW(read({3, {1, 2, 4, 4, 4, 5}, kUpper, kLevels}), InputError) << "another begin";
+  EXPECT_THROW(read({3, {0, 4, 2, 4, 4, 5}, kUpper, kLevels}), InputError);
+  EXPECT_THROW(read({3, {0, -2, 4, 4, 4, 5}, kUpper, kLevels}), InputError);
 }
 
 TEST(EdgeLevels, WhoseEdgesDescendAreRefused)
 {
-  EXPECT_THROW(read(3, {0, 1, 0, 5, 2, 1, 3, 9, 4, 9}, kLevels), InputError);
-  EXPECT_THROW(read(3, {0, 0, 0, 5, 1, 2, 1, 9, 4, 9}, kLevels), InputError);
-  EXPECT_THROW(read(3, {-1, 1, 0, 5, 1, 2, 1, 9, 4, 9}, kLevels), InputError);
+  EXPECT_THROW(read({3, kFirst, {5, 1, 2, 9, 9}, kLevels}), InputError) << "rows descend";
+  EXPECT_THROW(read({3, kFirst, {1, 1, 2, 9, 9}, kLevels}), InputError) << "a row twice";
+  EXPECT_THROW(read({3, kFirst, {1, 5, 1, 9, 9}, kLevels}), InputError) << "from 1 to 1";
+  EXPECT_THROW(read({3, kFirst, {-1, 5, 2, 9, 9}, kLevels}), InputError);
 }
 
 // histogram() and all loops over levels trust it.
 TEST(EdgeLevels, WithAnotherLargestThanTheirsAreRefused)
 {
-  EXPECT_THROW(read(2, kEdges, kLevels), InputError);
-  EXPECT_THROW(read(4, kEdges, kLevels), InputError);
-  EXPECT_THROW(read(2, kEdges, {2, 2, 2, 2, 2}), InputError) << "these are uniform";
-  EXPECT_THROW(read(2, kEdges, {}), InputError) << "these are uniform";
+  EXPECT_THROW(read({2, kFirst, kUpper, kLevels}), InputError);
+  EXPECT_THROW(read({4, kFirst, kUpper, kLevels}), InputError);
+  EXPECT_THROW(read({2, kFirst, kUpper, {2, 2, 2, 2, 2}}), InputError) << "these are uniform";
+  EXPECT_THROW(read({2, kFirst, kUpper, {}}), InputError) << "these are uniform";
 }
 
 }  // namespace

@@ -24,6 +24,23 @@ TEST(SortBySmallest, SortsAndKeepsRowsThatStandTwice)
   EXPECT_EQ(sorted({{7, 8}}), (Rows{{7, 8}}));
 }
 
+TEST(NumberRows, HasEachRowOnceAndSaysWhichEachGivenOneIs)
+{
+  const Rows given{{4, 5}, {0, 3}, {4, 5}, {0, 1}, {9, 10}, {0, 3}};
+  const NumberedRows<2> numbered = number_rows(given);
+  EXPECT_EQ(numbered.rows, (Rows{{0, 1}, {0, 3}, {4, 5}, {9, 10}}));
+  EXPECT_EQ(numbered.row_of, (std::vector<LocalIndex>{2, 1, 2, 0, 3, 1}));
+  EXPECT_TRUE(number_rows(Rows()).rows.empty());
+}
+
+TEST(NumberRows, TellsRowsOfThreeApartByEachVertex)
+{
+  const std::vector<std::array<LocalIndex, 3>> given{{1, 5, 7}, {1, 4, 9}, {1, 5, 6}, {0, 5, 6}};
+  const NumberedRows<3> numbered = number_rows(given);
+  EXPECT_EQ(numbered.rows, (std::vector{given[3], given[1], given[2], given[0]}));
+  EXPECT_EQ(numbered.row_of, (std::vector<LocalIndex>{3, 1, 2, 0}));
+}
+
 TEST(RowTable, HasEachRowOnceAndFindsIt)
 {
   const RowTable<2> table({{4, 5}, {0, 3}, {4, 5}, {0, 1}, {9, 10}});
