@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,8 @@ LocalIndex num_tets_in(const mesh::TetComplex& complex)
   return static_cast<LocalIndex>(complex.tets.size());
 }
 
-// Subdivides one coarse tet after the other; the array by lattice point is reused.
+// Points on edges and triangles first, then one coarse tet after the other; the array by place is
+// reused.
 class Subdivider {
  public:
   Subdivider(const mesh::TetComplex& complex, const mesh::RefinedLattice& lattice)
@@ -43,8 +45,10 @@ class Subdivider {
   {
     GlobalIndex num_tets = 0;
     LocalIndex num_points = next_inner_;
+    gradings_.reserve(complex.tets.size());
     for (LocalIndex t = 0; t < num_tets_in(complex); ++t) {
-      const mesh::TetGrading grading = mesh::tet_grading(complex, lattice, t);
+      const mesh::TetGrading& grading =
+          gradings_.emplace_back(mesh::tet_grading(complex, lattice, t));
       num_tets += mesh::num_children(grading);
       require_local(num_tets);
       num_points += lattice::num_inner_tet_points(grading.intervals());
@@ -56,31 +60,60 @@ class Subdivider {
 
   FillOutput run()
   {
+    place_faces();
     for (LocalIndex t = 0; t < num_tets_in(complex_); ++t) {
-      const mesh::TetPoints points(complex_, lattice_, t);
-      number_points(t, points);
-      place_points(points);
-      append_children(points);
+      number_points(t);
+      place_inside(gradings_[at(t)]);
+      append_children(gradings_[at(t)]);
     }
     return std::move(result_);
   }
 
  private:
-  // Inner points get the next numbers, in the order of tet_index().
-  void number_points(LocalIndex tet, const mesh::TetPoints& points)
+  [[nodiscard]] Vec3 point_at_place(LocalIndex place) const
   {
-    number_.assign(points.all().size(), kNoIndex);
+    return point_at(std::span<const double>(result_.vertex_xyz), number_[at(place)]);
+  }
+
+  void put(LocalIndex vertex, const Vec3& point)
+  {
+    std::copy(point.begin(), point.end(), &result_.vertex_xyz[3 * at(vertex)]);
+  }
+
+  void place_faces()
+  {
+    const mesh::Complex& faces = complex_.faces;
+    for (LocalIndex e = 0; e < faces.num_edges(); ++e) {
+      for (LocalIndex k = 0; k <= lattice_.edge_intervals(e); ++k) {
+        put(numbering_.edge_point(e, k), lattice_.edge_point(e, k));
+      }
+    }
+    for (LocalIndex t = 0; t < faces.num_triangles(); ++t) {
+      const LocalIndex n = lattice_.triangle_intervals(t);
+      for (LocalIndex j = 1; j < n; ++j) {
+        for (LocalIndex i = 1; i + j < n; ++i) {
+          put(numbering_.triangle_point(t, n, {i, j}), lattice_.triangle_point(t, {i, j}));
+        }
+      }
+    }
+  }
+
+  // Inner points get the next numbers, in the order of their places.
+  void number_points(LocalIndex tet)
+  {
+    const mesh::TetGrading& grading = gradings_[at(tet)];
+    const LocalIndex n = mesh::intervals_of_places(grading);
+    number_.assign(at(lattice::num_tet_points(n)), kNoIndex);
     mesh::for_each_outer_point(
-        complex_, lattice_.levels(), tet, points.grading(),
+        complex_, lattice_.levels(), tet, grading,
+        [&](LocalIndex place, LocalIndex edge, LocalIndex k) {
+          number_[at(place)] = numbering_.edge_point(edge, k);
+        },
         [&](LocalIndex place, LocalIndex triangle, const lattice::TrianglePoint& p) {
           number_[at(place)] =
               numbering_.triangle_point(triangle, lattice_.triangle_intervals(triangle), p);
-        },
-        [&](LocalIndex place, LocalIndex edge, LocalIndex k) {
-          number_[at(place)] = numbering_.edge_point(edge, k);
         });
-    const LocalIndex n = points.intervals();
-    const LocalIndex step = n / points.grading().intervals();
+    const LocalIndex step = n / grading.intervals();
     for (LocalIndex k = step; k < n; k += step) {
       for (LocalIndex j = step; j + k < n; j += step) {
         for (LocalIndex i = step; i + j + k < n; i += step) {
@@ -90,33 +123,33 @@ class Subdivider {
     }
   }
 
-  // Points on faces are written once for each tet that has them, with the same bits.
-  void place_points(const mesh::TetPoints& points)
+  void place_inside(const mesh::TetGrading& grading)
   {
-    for (std::size_t place = 0; place < number_.size(); ++place) {
-      if (number_[place] == kNoIndex) continue;
-      const Vec3& point = points.all()[place];
-      std::copy(point.begin(), point.end(), &result_.vertex_xyz[3 * at(number_[place])]);
-    }
+    mesh::for_each_inner_point(grading, [&](LocalIndex place, LocalIndex a, LocalIndex b) {
+      put(number_[at(place)], midpoint(point_at_place(a), point_at_place(b)));
+    });
   }
 
-  void append_children(const mesh::TetPoints& points)
+  void append_children(const mesh::TetGrading& grading)
   {
     LocalIndex* to = next_corner_;
-    points.for_each_child([&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
-      to[0] = number_[at(a)];
-      to[1] = number_[at(b)];
-      to[2] = number_[at(c)];
-      to[3] = number_[at(d)];
-      to += 4;
-    });
+    mesh::for_each_child(
+        grading, [&](LocalIndex place) { return point_at_place(place); },
+        [&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
+          to[0] = number_[at(a)];
+          to[1] = number_[at(b)];
+          to[2] = number_[at(c)];
+          to[3] = number_[at(d)];
+          to += 4;
+        });
     next_corner_ = to;
   }
 
   const mesh::TetComplex& complex_;
   const mesh::RefinedLattice& lattice_;
   mesh::LatticeNumbering numbering_;
-  std::vector<LocalIndex> number_{};  ///< By tet_index(): vertex of the piece, or kNoIndex.
+  std::vector<mesh::TetGrading> gradings_{};
+  std::vector<LocalIndex> number_{};  ///< By place: vertex of the piece, or kNoIndex.
   LocalIndex next_inner_;
   LocalIndex* next_corner_ = nullptr;  ///< In the result.
   FillOutput result_{};

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "tessera/mesh/tet_face_map.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
 
@@ -61,7 +60,7 @@ TetGrading tet_grading(const TetComplex& complex, const RefinedLattice& lattice,
 
 TetPoints::TetPoints(const TetComplex& complex, const RefinedLattice& lattice, LocalIndex tet)
     : grading_(tet_grading(complex, lattice, tet)),
-      n_(grading_.intervals() * (grading_.is_uniform() ? 1 : 2)),
+      n_(intervals_of_places(grading_)),
       points_(static_cast<std::size_t>(lattice::num_tet_points(n_)))
 {
   const auto place_at = [&](LocalIndex place) -> Vec3& {
@@ -69,59 +68,15 @@ TetPoints::TetPoints(const TetComplex& complex, const RefinedLattice& lattice, L
   };
   for_each_outer_point(
       complex, lattice.levels(), tet, grading_,
-      [&](LocalIndex place, LocalIndex triangle, const TrianglePoint& p) {
-        place_at(place) = lattice.triangle_point(triangle, p);
-      },
       [&](LocalIndex place, LocalIndex edge, LocalIndex k) {
         place_at(place) = lattice.edge_point(edge, k);
+      },
+      [&](LocalIndex place, LocalIndex triangle, const TrianglePoint& p) {
+        place_at(place) = lattice.triangle_point(triangle, p);
       });
-  fill_inside();
-}
-
-DiagonalLengths TetPoints::diagonals_of(const ChildCorners& child) const
-{
-  DiagonalLengths lengths{};
-  for (std::size_t e = 0; e < lengths.size(); ++e) {
-    const auto [a, b] = kTetEdgeCorners[e];
-    const auto [c, d] = kTetEdgeCorners[kTetEdgeCorners.size() - 1 - e];
-    const Vec3 diagonal =
-        midpoint(at(child[a]), at(child[b])) - midpoint(at(child[c]), at(child[d]));
-    lengths[e] = dot(diagonal, diagonal);
-  }
-  return lengths;
-}
-
-// A new inner point has two or four odd weights. With two it is the midpoint along the edge in
-// which they change. With four it is the middle of an octahedron: the midpoint of its diagonal.
-void TetPoints::fill_inside()
-{
-  const LocalIndex last_step = n_ / grading_.intervals();
-  for (LocalIndex step = n_ / 2; step >= last_step; step /= 2) {
-    for (LocalIndex k = step; k < n_; k += step) {
-      for (LocalIndex j = step; j + k < n_; j += step) {
-        for (LocalIndex i = step; i + j + k < n_; i += step) {
-          const std::array<bool, 3> odd{(i / step) % 2 != 0, (j / step) % 2 != 0,
-                                        (k / step) % 2 != 0};
-          const int num_odd = odd[0] + odd[1] + odd[2];
-          if (num_odd == 0) continue;
-          std::array<LocalIndex, 3> by{};
-          if (num_odd == 3) {
-            by = {step, step, step};
-            by[grading_.diagonal] = -step;
-          } else {
-            LocalIndex sign = 1;
-            for (std::size_t d = 0; d < 3; ++d) {
-              if (!odd[d]) continue;
-              by[d] = sign * step;
-              sign = -sign;
-            }
-          }
-          points_[static_cast<std::size_t>(lattice::tet_index(n_, {i, j, k}))] = midpoint(
-              at({i - by[0], j - by[1], k - by[2]}), at({i + by[0], j + by[1], k + by[2]}));
-        }
-      }
-    }
-  }
+  for_each_inner_point(grading_, [&](LocalIndex place, LocalIndex a, LocalIndex b) {
+    place_at(place) = midpoint(place_at(a), place_at(b));
+  });
 }
 
 }  // namespace tessera::mesh
