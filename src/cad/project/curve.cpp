@@ -12,7 +12,6 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
-#include <gp_Vec.hxx>
 
 #include "cad/project/descent.hpp"
 #include "cad/shape.hpp"
@@ -121,46 +120,38 @@ bool OccCurve::is_within(double distance, const Vec3& point) const
 OccCurve::Descent OccCurve::descend(const Vec3& point, double guess) const
 {
   const gp_Pnt target = to_occ(point);
-  double t = std::clamp(guess, first_, last_);
-  double distance = curve_->Value(t).Distance(target);
-  bool converged = false;
-  for (int i = 0; i < kMaxDescentSteps && !converged; ++i) {
-    const double limit = kMaxStepFraction * (last_ - first_);
-    const auto [newton_step, is_valley] = step_at(target, t);
-    double step = std::clamp(newton_step, -limit, limit);
-    double next = t;
-    double next_distance = distance;
-    for (int halvings = 0; halvings < kMaxHalvings; ++halvings, step *= 0.5) {
-      next = std::clamp(t + step, first_, last_);
-      next_distance = curve_->Value(next).Distance(target);
-      if (next_distance <= distance + kRounding * box_diagonal_) break;
-    }
-    const double moved = curve_->Value(next).Distance(curve_->Value(t));
-    const bool has_stopped = moved <= kConvergedStep * box_diagonal_;
-    if (has_stopped && !is_valley) break;
-    converged = has_stopped;
-    if (next_distance > distance + kRounding * box_diagonal_) break;
-    t = next;
-    distance = next_distance;
-  }
-  return {{from_occ(curve_->Value(t)), t}, distance, converged};
+  const auto found = cad::descend(
+      evaluate(target, guess), box_diagonal_,
+      [&](const Evaluation& here) { return step_at(target, here); },
+      [&](const Evaluation& here, const Step& step, double fraction) {
+        return evaluate(target, here.t + fraction * step.t);
+      });
+  return {{from_occ(found.end.value), found.end.t}, found.end.distance, found.converged};
+}
+
+OccCurve::Evaluation OccCurve::evaluate(const gp_Pnt& target, double t) const
+{
+  Evaluation here{.t = std::clamp(t, first_, last_)};
+  curve_->D2(here.t, here.value, here.first_derivative, here.second_derivative);
+  here.distance = here.value.Distance(target);
+  return here;
 }
 
 // Newton's step for the squared distance; Gauss-Newton's where that is no descent direction. There
 // the distance may be the largest instead of the smallest: opposite to the point on a closed curve.
-OccCurve::Step OccCurve::step_at(const gp_Pnt& target, double t) const
+OccCurve::Step OccCurve::step_at(const gp_Pnt& target, const Evaluation& here) const
 {
-  gp_Pnt value;
-  gp_Vec first_derivative;
-  gp_Vec second_derivative;
-  curve_->D2(t, value, first_derivative, second_derivative);
-  const gp_Vec offset(target, value);
-  const double gradient = offset.Dot(first_derivative);
-  const double squared_speed = first_derivative.SquareMagnitude();
-  if (squared_speed <= 0.0) return {0.0, true};
-  const double curvature = squared_speed + offset.Dot(second_derivative);
+  const gp_Vec offset(target, here.value);
+  const double squared_speed = here.first_derivative.SquareMagnitude();
+  if (squared_speed <= 0.0) return {.is_valley = true};
+  const double gradient = offset.Dot(here.first_derivative);
+  const double curvature = squared_speed + offset.Dot(here.second_derivative);
   const double pivot = kMinRelativePivot * squared_speed;
-  return {-gradient / (curvature > pivot ? curvature : squared_speed), curvature > -pivot};
+  const double limit = kMaxStepFraction * (last_ - first_);
+  const double newton = -gradient / (curvature > pivot ? curvature : squared_speed);
+  const double step = std::clamp(newton, -limit, limit);
+  const double moved = std::clamp(here.t + step, first_, last_) - here.t;
+  return {step, std::abs(moved) * std::sqrt(squared_speed), curvature > -pivot};
 }
 
 }  // namespace tessera::cad

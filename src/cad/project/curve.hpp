@@ -7,6 +7,7 @@
 #include <Geom_Curve.hxx>
 #include <TopoDS_Edge.hxx>
 #include <gp_Pnt.hxx>
+#include <gp_Vec.hxx>
 
 #include "tessera/model/model.hpp"
 
@@ -53,9 +54,19 @@ class OccCurve {
     bool converged = false;
   };
 
+  struct Evaluation {
+    double t = 0.0;
+    gp_Pnt value{};
+    gp_Vec first_derivative{};
+    gp_Vec second_derivative{};
+    double distance = 0.0;  ///< To the target of the descent.
+  };
+
+  /// @see cad::descend()
   struct Step {
     double t = 0.0;
-    bool is_valley = false;  ///< The distance curves upwards.
+    double length = 0.0;
+    bool is_valley = false;
   };
 
   struct End {
@@ -64,7 +75,8 @@ class OccCurve {
   };
 
   [[nodiscard]] Descent descend(const Vec3& point, double guess) const;
-  [[nodiscard]] Step step_at(const gp_Pnt& target, double t) const;
+  [[nodiscard]] Evaluation evaluate(const gp_Pnt& target, double t) const;
+  [[nodiscard]] Step step_at(const gp_Pnt& target, const Evaluation& here) const;
   [[nodiscard]] double sample_parameter(std::size_t i) const;
 
   double first_ = 0.0;

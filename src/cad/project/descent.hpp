@@ -32,4 +32,42 @@ inline constexpr double kPoleLength = 1e-7;
 inline constexpr double kSeamFraction = 1e-4;
 inline constexpr double kFarAway = 1e300;
 
+/// @brief Where a descent ended, and whether the distance is smallest there.
+template <class Evaluation>
+struct Descended {
+  Evaluation end{};
+  bool converged = false;
+};
+
+/// @brief Goes from an evaluation of a curve or surface to the nearest point that steps lead to.
+///
+/// An evaluation has its `value` in space, its `distance` to the target, and what the next step
+/// needs, so each point is evaluated once.
+/// @param[in] step_at Gives the step from an evaluation: its `length` in space to first order, and
+/// `is_valley`: the distance curves upwards in all directions.
+/// @param[in] advance Evaluates a fraction of a step farther.
+template <class Evaluation, class StepAt, class Advance>
+[[nodiscard]] Descended<Evaluation> descend(Evaluation here, double box_diagonal, StepAt&& step_at,
+                                            Advance&& advance)
+{
+  const double rounding = kRounding * box_diagonal;
+  for (int i = 0; i < kMaxDescentSteps; ++i) {
+    const auto step = step_at(here);
+    if (step.length <= rounding) return {here, step.is_valley};
+    double fraction = 1.0;
+    Evaluation next = advance(here, step, fraction);
+    const auto is_farther = [&] { return next.distance > here.distance + rounding; };
+    for (int halvings = 1; halvings < kMaxHalvings && is_farther(); ++halvings) {
+      fraction *= 0.5;
+      next = advance(here, step, fraction);
+    }
+    const bool has_stopped = next.value.Distance(here.value) <= kConvergedStep * box_diagonal;
+    if (has_stopped && !step.is_valley) return {here, false};
+    if (is_farther()) return {here, has_stopped};
+    here = next;
+    if (has_stopped) return {here, true};
+  }
+  return {here, false};
+}
+
 }  // namespace tessera::cad

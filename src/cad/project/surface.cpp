@@ -156,7 +156,7 @@ model::SurfacePoint OccSurface::project(const Vec3& point, const Uv& guess) cons
 {
   const Descent local = descend(point, guess);
   // At a pole all directions but one are frozen, so a descent that ends there may have missed more.
-  const bool trusted = local.converged && !is_pole(local.point.uv);
+  const bool trusted = local.converged && !local.is_pole;
   if (trusted && within_trim(local.point)) return local.point;
   return nearest(point, guess);
 }
@@ -173,56 +173,42 @@ model::SurfacePoint OccSurface::locate(const Vec3& point, const Uv& guess) const
 OccSurface::Descent OccSurface::descend(const Vec3& point, const Uv& guess) const
 {
   const gp_Pnt target = to_occ(point);
-  Uv uv = clamped(guess);
-  gp_Pnt value = surface_->Value(uv[0], uv[1]);
-  double distance = value.Distance(target);
-  bool converged = false;
-  for (int i = 0; i < kMaxDescentSteps && !converged; ++i) {
-    const auto [step, is_valley] = step_at(target, uv);
-    Uv next = uv;
-    gp_Pnt next_value = value;
-    double next_distance = kFarAway;
-    double fraction = 1.0;
-    for (int halvings = 0; halvings < kMaxHalvings; ++halvings, fraction *= 0.5) {
-      next = clamped({uv[0] + fraction * step[0], uv[1] + fraction * step[1]});
-      next_value = surface_->Value(next[0], next[1]);
-      next_distance = next_value.Distance(target);
-      if (next_distance <= distance + kRounding * box_diagonal_) break;
-    }
-    const bool has_stopped = next_value.Distance(value) <= kConvergedStep * box_diagonal_;
-    if (has_stopped && !is_valley) break;
-    converged = has_stopped;
-    if (next_distance > distance + kRounding * box_diagonal_) break;
-    uv = next;
-    value = next_value;
-    distance = next_distance;
-  }
-  return {{from_occ(value), uv}, distance, converged};
+  const auto [end, converged] = cad::descend(
+      evaluate(target, guess), box_diagonal_,
+      [&](const Evaluation& here) { return step_at(target, here); },
+      [&](const Evaluation& here, const Step& step, double fraction) {
+        return evaluate(target,
+                        {here.uv[0] + fraction * step.uv[0], here.uv[1] + fraction * step.uv[1]});
+      });
+  const bool is_pole = is_degenerate(end.first, 0) || is_degenerate(end.first, 1);
+  return {{from_occ(end.value), end.uv}, end.distance, converged, is_pole};
 }
 
-OccSurface::Step OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
+OccSurface::Evaluation OccSurface::evaluate(const gp_Pnt& target, const Uv& uv) const
 {
-  gp_Pnt value;
-  std::array<gp_Vec, 2> first;
-  gp_Vec by_uu;
-  gp_Vec by_vv;
-  gp_Vec by_uv;
-  surface_->D2(uv[0], uv[1], value, first[0], first[1], by_uu, by_vv, by_uv);
-  const gp_Vec offset(target, value);
-  Quadratic gauss_newton{first[0].SquareMagnitude(),
-                         first[1].SquareMagnitude(),
-                         first[0].Dot(first[1]),
-                         {offset.Dot(first[0]), offset.Dot(first[1])}};
+  Evaluation here{.uv = clamped(uv)};
+  surface_->D2(here.uv[0], here.uv[1], here.value, here.first[0], here.first[1], here.by_uu,
+               here.by_vv, here.by_uv);
+  here.distance = here.value.Distance(target);
+  return here;
+}
+
+OccSurface::Step OccSurface::step_at(const gp_Pnt& target, const Evaluation& here) const
+{
+  const auto& [u, v] = here.first;
+  const gp_Vec offset(target, here.value);
+  Quadratic gauss_newton{
+      u.SquareMagnitude(), v.SquareMagnitude(), u.Dot(v), {offset.Dot(u), offset.Dot(v)}};
   Quadratic newton = gauss_newton;
-  newton.uu += offset.Dot(by_uu);
-  newton.vv += offset.Dot(by_vv);
-  newton.uv += offset.Dot(by_uv);
+  newton.uu += offset.Dot(here.by_uu);
+  newton.vv += offset.Dot(here.by_vv);
+  newton.uv += offset.Dot(here.by_uv);
   for (std::size_t k = 0; k < 2; ++k) {
     const Direction& direction = directions_[k];
     const double slope = gauss_newton.gradient[k];
-    const bool at_end = (uv[k] <= direction.domain_first && slope > 0.0)
-                        || (uv[k] >= direction.domain_last && slope < 0.0);
-    if (!at_end && first[k].Magnitude() * direction.span() > kPoleLength * box_diagonal_) continue;
+    const bool at_end = (here.uv[k] <= direction.domain_first && slope > 0.0)
+                        || (here.uv[k] >= direction.domain_last && slope < 0.0);
+    if (!at_end && !is_degenerate(here.first, k)) continue;
     newton.fix(k);
     gauss_newton.fix(k);
   }
@@ -232,7 +218,16 @@ OccSurface::Step OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
     const double factor = std::abs(step[k]) > limit ? limit / std::abs(step[k]) : 1.0;
     step = {factor * step[0], factor * step[1]};
   }
-  return {step, is_convex(newton, gauss_newton)};
+  const Uv next = clamped({here.uv[0] + step[0], here.uv[1] + step[1]});
+  const gp_Vec move = u * (next[0] - here.uv[0]) + v * (next[1] - here.uv[1]);
+  return {step, move.Magnitude(), is_convex(newton, gauss_newton)};
+}
+
+// Whether the parameter leads nowhere, as at a pole. @param[in] first Derivatives.
+bool OccSurface::is_degenerate(const std::array<gp_Vec, 2>& first, std::size_t direction) const
+{
+  return first[direction].Magnitude() * directions_[direction].span()
+         <= kPoleLength * box_diagonal_;
 }
 
 std::array<bool, 2> OccSurface::degenerate_directions(const Uv& uv) const
@@ -240,11 +235,7 @@ std::array<bool, 2> OccSurface::degenerate_directions(const Uv& uv) const
   gp_Pnt value;
   std::array<gp_Vec, 2> first;
   surface_->D1(uv[0], uv[1], value, first[0], first[1]);
-  std::array<bool, 2> degenerate{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    degenerate[k] = first[k].Magnitude() * directions_[k].span() <= kPoleLength * box_diagonal_;
-  }
-  return degenerate;
+  return {is_degenerate(first, 0), is_degenerate(first, 1)};
 }
 
 OccSurface::Uv OccSurface::clamped(const Uv& uv) const
@@ -281,7 +272,7 @@ model::SurfacePoint OccSurface::nearest(const Vec3& point, const Uv& guess) cons
 
 OccSurface::Descent OccSurface::nearest_inside(const Vec3& point) const
 {
-  Descent best{{}, kFarAway, false};
+  Descent best{.distance = kFarAway};
   for (const Uv& start : descent_starts(point)) {
     const Descent candidate = descend(point, start);
     if (!candidate.converged) continue;
@@ -293,7 +284,7 @@ OccSurface::Descent OccSurface::nearest_inside(const Vec3& point) const
 
 OccSurface::Descent OccSurface::nearest_boundary(const Vec3& point) const
 {
-  Descent best{{}, kFarAway, false};
+  Descent best{.distance = kFarAway};
   for (const Boundary& boundary : boundaries_) {
     const model::CurvePoint on_edge = boundary.curve.nearest(point);
     const double distance = norm(on_edge.xyz - point);

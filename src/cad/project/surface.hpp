@@ -63,11 +63,24 @@ class OccSurface {
     model::SurfacePoint point{};
     double distance = 0.0;
     bool converged = false;
+    bool is_pole = false;
   };
 
+  struct Evaluation {
+    Uv uv{};
+    gp_Pnt value{};
+    std::array<gp_Vec, 2> first{};
+    gp_Vec by_uu{};
+    gp_Vec by_vv{};
+    gp_Vec by_uv{};
+    double distance = 0.0;  ///< To the target of the descent.
+  };
+
+  /// @see cad::descend()
   struct Step {
     Uv uv{};
-    bool is_valley = false;  ///< The distance curves upwards in all directions.
+    double length = 0.0;
+    bool is_valley = false;
   };
 
   struct Boundary {
@@ -78,13 +91,10 @@ class OccSurface {
   void close_at_seam(const std::array<double, 2>& width);
   void collect_boundaries(const TopoDS_Face& face, double box_diagonal);
   [[nodiscard]] Descent descend(const Vec3& point, const Uv& guess) const;
-  [[nodiscard]] Step step_at(const gp_Pnt& target, const Uv& uv) const;
+  [[nodiscard]] Evaluation evaluate(const gp_Pnt& target, const Uv& uv) const;
+  [[nodiscard]] Step step_at(const gp_Pnt& target, const Evaluation& here) const;
+  [[nodiscard]] bool is_degenerate(const std::array<gp_Vec, 2>& first, std::size_t direction) const;
   [[nodiscard]] std::array<bool, 2> degenerate_directions(const Uv& uv) const;
-  [[nodiscard]] bool is_pole(const Uv& uv) const
-  {
-    const auto [u, v] = degenerate_directions(uv);
-    return u || v;
-  }
   [[nodiscard]] Uv clamped(const Uv& uv) const;
   [[nodiscard]] bool within_trim(const model::SurfacePoint& point) const;
   [[nodiscard]] bool is_on_boundary(const Vec3& point) const;
