@@ -41,7 +41,9 @@ cut::CutMesh CoarseMesher::generate_parts(const surface::CoarseOptions& options,
 {
   surface::CoarseSurface surface = mesh_surface(options, planes);
   const std::vector<surface::DomainTets> tets = mesh_domains(surface, options);
-  return surface::fill_surface(std::move(surface), tets);
+  cut::CutMesh filled = surface::fill_surface(std::move(surface), tets);
+  mesh::validate(filled.mesh);
+  return filled;
 }
 
 }  // namespace tessera::coarse

@@ -3,30 +3,36 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/sort_unique.hpp"
 #include "tessera/base/tet.hpp"
+#include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
 namespace {
 
-void require(bool condition, const std::string& what)
+// Puts the text together only if it is needed: there is a call for every tet and triangle.
+template <class... Args>
+void require(bool condition, fmt::format_string<Args...> text, Args&&... args)
 {
-  if (!condition) throw MeshError("coarse mesh: " + what);
+  if (!condition) {
+    throw MeshError("coarse mesh: " + fmt::format(text, std::forward<Args>(args)...));
+  }
 }
 
 void require_indices_below(std::span<const LocalIndex> indices, LocalIndex limit,
                            const std::string& name)
 {
   for (const LocalIndex i : indices) {
-    require(i >= 0 && i < limit, fmt::format("{} holds {}, not in [0, {})", name, i, limit));
+    require(i >= 0 && i < limit, "{} holds {}, not in [0, {})", name, i, limit);
   }
 }
 
@@ -56,7 +62,7 @@ void validate_shapes(const CoarseMesh& mesh)
   require_indices_below(mesh.face_patch, mesh.num_patches(), "face_patch");
   require_indices_below(mesh.segment_vertices, mesh.num_vertices(), "segment_vertices");
   for (const LocalIndex m : mesh.tet_material) {
-    require(m >= 1 && m <= mesh.num_materials(), fmt::format("material {} has no name", m));
+    require(m >= 1 && m <= mesh.num_materials(), "material {} has no name", m);
   }
 }
 
@@ -76,7 +82,7 @@ void validate_images(const CoarseMesh& mesh)
     require(origin == kNoIndex
                 ? patch == kNoIndex
                 : origin >= 0 && origin < mesh.num_faces() && mesh.face_patch[at(origin)] == patch,
-            fmt::format("face {} is the image of none of its patch's origin", f));
+            "face {} is the image of none of its patch's origin", f);
   }
 }
 
@@ -84,36 +90,49 @@ void validate_tets(const CoarseMesh& mesh)
 {
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
     const double volume = tet_volume(corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t));
-    require(volume > 0.0, fmt::format("tet {} has volume {:g}", t, volume));
+    require(volume > 0.0, "tet {} has volume {:g}", t, volume);
   }
+}
+
+// Faces by their vertices, each once, ascending.
+std::vector<std::array<LocalIndex, 3>> sorted_faces(const CoarseMesh& mesh)
+{
+  std::vector<std::array<LocalIndex, 3>> faces;
+  for (std::size_t f = 0; f < mesh.face_patch.size(); ++f) {
+    const LocalIndex* v = &mesh.face_vertices[3 * f];
+    faces.push_back(sorted_triangle(v[0], v[1], v[2]));
+  }
+  NumberedRows<3> numbered = number_rows(faces);
+  std::vector<char> is_seen(numbered.rows.size(), 0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    char& seen = is_seen[at(numbered.row_of[f])];
+    require(seen == 0, "face {} stands twice", f);
+    seen = 1;
+  }
+  return std::move(numbered.rows);
 }
 
 void validate_faces(const CoarseMesh& mesh)
 {
-  std::map<std::array<LocalIndex, 3>, int> times_a_face;
-  for (std::size_t f = 0; f < mesh.face_patch.size(); ++f) {
-    const auto corners = sorted_triangle(mesh.face_vertices[3 * f], mesh.face_vertices[3 * f + 1],
-                                         mesh.face_vertices[3 * f + 2]);
-    require(++times_a_face[corners] == 1, fmt::format("face {} stands twice", f));
-  }
-  std::size_t faces_of_tets = 0;
+  const std::vector<std::array<LocalIndex, 3>> faces = sorted_faces(mesh);
+  auto next_face = faces.begin();
+  std::size_t num_found = 0;
   for (const TriangleTets& triangle : triangles_of_tets(mesh.tet_vertices)) {
-    const bool is_face = times_a_face.count(triangle.vertices) > 0;
-    faces_of_tets += is_face ? 1 : 0;
-    const auto body = [&](std::size_t side) {
-      return mesh.body(mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])]);
-    };
+    while (next_face != faces.end() && *next_face < triangle.vertices) ++next_face;
+    const bool is_face = next_face != faces.end() && *next_face == triangle.vertices;
+    num_found += is_face ? 1 : 0;
     const auto material = [&](std::size_t side) {
-      return mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])];
+      return mesh.tet_material[at(triangle.tets[side])];
     };
+    const auto body = [&](std::size_t side) { return mesh.body(material(side)); };
     const bool outside = triangle.tets[1] == kNoIndex;
     require(!is_face || outside || material(0) != material(1),
-            fmt::format("a face of tet {} lies within one material", triangle.tets[0]));
+            "a face of tet {} lies within one material", triangle.tets[0]);
     require(is_face || !(outside || body(0) != body(1)),
-            fmt::format("a triangle of tet {} is on the outside or between two bodies but no face",
-                        triangle.tets[0]));
+            "a triangle of tet {} is on the outside or between two bodies but no face",
+            triangle.tets[0]);
   }
-  require(faces_of_tets == times_a_face.size(), "a face is no triangle of any tet");
+  require(num_found == faces.size(), "a face is no triangle of any tet");
 }
 
 std::string line_name(const NamedCurve& curve)

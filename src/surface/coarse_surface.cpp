@@ -195,7 +195,6 @@ cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainTets>& 
   if (filled.mesh.num_tets() == 0) throw MeshError("the coarse mesh has no tets");
   drop_cuts(filled.mesh);
   keep_vertices_of_tets(filled.mesh);
-  mesh::validate(filled.mesh);
   return filled;
 }
 

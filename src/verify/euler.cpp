@@ -2,23 +2,21 @@
 #include "tessera/verify/euler.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
+#include "tessera/base/index_lists.hpp"
+#include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::verify {
 namespace {
 
-// Adds `sign` for every different (part, vertices...) row.
-template <std::size_t N>
-void count_rows(std::vector<std::array<LocalIndex, N>> rows, GlobalIndex sign,
-                std::vector<GlobalIndex>& counts)
+// V - E + F - T of tets whose vertices are dense.
+GlobalIndex characteristic(std::span<const LocalIndex> tet_vertices, LocalIndex num_vertices)
 {
-  std::sort(rows.begin(), rows.end());
-  const auto last = std::unique(rows.begin(), rows.end());
-  for (auto row = rows.begin(); row != last; ++row)
-    counts[static_cast<std::size_t>((*row)[0])] += sign;
+  const auto num_triangles = mesh::number_rows(mesh::faces_of_tets(tet_vertices)).rows.size();
+  return num_vertices - mesh::count_edges(tet_vertices, num_vertices)
+         + static_cast<GlobalIndex>(num_triangles)
+         - static_cast<GlobalIndex>(tet_vertices.size() / 4);
 }
 
 }  // namespace
@@ -26,28 +24,28 @@ void count_rows(std::vector<std::array<LocalIndex, N>> rows, GlobalIndex sign,
 std::vector<GlobalIndex> euler_characteristics(std::span<const LocalIndex> tet_vertices,
                                                std::span<const LocalIndex> tet_part)
 {
-  std::vector<std::array<LocalIndex, 2>> vertices;
-  std::vector<std::array<LocalIndex, 3>> edges;
-  std::vector<std::array<LocalIndex, 4>> triangles;
   LocalIndex num_parts = 0;
-  for (std::size_t t = 0; t < tet_part.size(); ++t) {
-    const LocalIndex part = tet_part[t];
-    num_parts = std::max(num_parts, part + 1);
-    const auto v = tet_vertices.subspan(4 * t, 4);
-    for (const LocalIndex vertex : v) vertices.push_back({part, vertex});
-    for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-      edges.push_back({part, std::min(v[a], v[b]), std::max(v[a], v[b])});
+  for (const LocalIndex part : tet_part) num_parts = std::max(num_parts, part + 1);
+  LocalIndex num_vertices = 0;
+  for (const LocalIndex v : tet_vertices) num_vertices = std::max(num_vertices, v + 1);
+  const IndexLists tets_of = rows_by_key(tet_part, num_parts);
+
+  std::vector<GlobalIndex> euler;
+  std::vector<LocalIndex> part_of(at(num_vertices), kNoIndex);  // The last one that had the vertex,
+  std::vector<LocalIndex> number(at(num_vertices));             // and its number there.
+  std::vector<LocalIndex> own;
+  for (LocalIndex part = 0; part < num_parts; ++part) {
+    own.clear();
+    LocalIndex num_own = 0;
+    for (const LocalIndex tet : tets_of[part]) {
+      for (const LocalIndex v : tet_vertices.subspan(4 * at(tet), 4)) {
+        if (part_of[at(v)] != part) number[at(v)] = num_own++;
+        part_of[at(v)] = part;
+        own.push_back(number[at(v)]);
+      }
     }
-    for (const auto& face : mesh::kTetFaceCorners) {
-      const auto [a, b, c] = mesh::sorted_triangle(v[face[0]], v[face[1]], v[face[2]]);
-      triangles.push_back({part, a, b, c});
-    }
+    euler.push_back(characteristic(own, num_own));
   }
-  std::vector<GlobalIndex> euler(static_cast<std::size_t>(num_parts), 0);
-  count_rows(std::move(vertices), 1, euler);
-  count_rows(std::move(edges), -1, euler);
-  count_rows(std::move(triangles), 1, euler);
-  for (const LocalIndex part : tet_part) --euler[static_cast<std::size_t>(part)];
   return euler;
 }
 
