@@ -20,7 +20,6 @@
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/layers/find_wakes.hpp"
 #include "tessera/mesh/lattice.hpp"
-#include "tessera/mesh/sort_along_curve.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/model/stl_file.hpp"
 #include "tessera/model/triangle_surface.hpp"
@@ -221,9 +220,10 @@ class MeshWorker final : public jobs::Worker {
     const surface::Defeatured& merged = request.surface.defeatured;
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_, merged);
     made.defeatured = merged.scaled(scale_);
-    if (request.options.optimize) coarse::optimize_interior(made.mesh);
-    mesh::sort_along_curve(made.mesh);
-    if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
+    if (request.options.optimize) {
+      coarse::optimize_interior(made.mesh);
+      if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
+    }
     made.distance = made.distance.scaled(scale_);
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     netgen::name_curves(*netgen_model_, made.mesh);
@@ -248,7 +248,7 @@ class MeshWorker final : public jobs::Worker {
     return to_bytes(made);
   }
 
-  // After tets were flipped and sorted: by their centroids.
+  // After tets were flipped: by their centroids.
   [[nodiscard]] static std::vector<LocalIndex> parts_of_tets(const mesh::CoarseMesh& mesh,
                                                              const cut::CutTree& planes)
   {

@@ -3,14 +3,14 @@
 //
 // Fresh memory is handed over page by page, each when it is first touched. With pages of 4 KiB that
 // takes longer than what most passes over a mesh do with them: to number the triangles of 840,000
-// tets took 1.2 s, 0.3 s with huge pages (where faults are dear, as on virtual machines; 2 cores). A
-// block that begins on a huge page needs no more memory than before, since its last part is on small
-// ones. Huge pages are a matter of speed only, so nothing is done about a refusal.
-#include <sys/mman.h>
-
+// tets took 1.2 s, 0.3 s with huge pages (where faults are dear, as on virtual machines; 2 cores).
+// A block that begins on a huge page needs no more memory than before, since its last part is on
+// small ones. Huge pages are a matter of speed only, so nothing is done about a refusal.
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+
+#include <sys/mman.h>
 
 namespace {
 
