@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -76,40 +75,6 @@ template <std::size_t N>
   }
   return numbered;
 }
-
-/// @brief Different rows of N ascending vertices in ascending order, with a quick search.
-template <std::size_t N>
-class RowTable {
- public:
-  using Row = std::array<LocalIndex, N>;
-
-  /// @param[in] rows In any order, repeated or not; vertices are dense.
-  explicit RowTable(std::vector<Row> rows) : rows_(std::move(rows))
-  {
-    sort_by_smallest(
-        rows_, [](const Row& row) { return row[0]; }, std::less<>{});
-    rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
-    for (std::size_t r = 0; r < rows_.size(); ++r) begins_.resize(at(rows_[r][0]) + 1, r);
-    begins_.push_back(rows_.size());
-  }
-
-  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
-
-  /// @brief Which row it is. @pre It is among the rows.
-  [[nodiscard]] LocalIndex index_of(const Row& row) const
-  {
-    const auto place = [&](std::size_t r) {
-      return rows_.begin() + static_cast<std::ptrdiff_t>(r);
-    };
-    const auto found =
-        std::lower_bound(place(begins_[at(row[0])]), place(begins_[at(row[0]) + 1]), row);
-    return static_cast<LocalIndex>(found - rows_.begin());
-  }
-
- private:
-  std::vector<Row> rows_;
-  std::vector<std::size_t> begins_;  ///< Where the rows of each smallest vertex begin; and the end.
-};
 
 /// @brief Row of a flat array that holds these values; kNoIndex: none does. O(log n).
 /// @param[in] flat Shape (num_rows, N); the rows ascend.

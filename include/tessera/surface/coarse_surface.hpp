@@ -83,7 +83,8 @@ struct DomainTets {
 /// that no tet has are dropped, and segments with them.
 /// @param[in] tets  Those of every domain, in their order.
 /// @return Also the parts of the tets, if domains are parts.
-/// @note Local. @throws MeshError if the result is not valid: mesh::validate().
+/// @note Local. The result is not validated, since callers go on to change it. @throws MeshError if
+/// there are no tets.
 [[nodiscard]] cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainTets>& tets);
 
 }  // namespace tessera::surface

@@ -11,7 +11,7 @@ namespace tessera::verify {
 /// @brief V - E + F - T of every part of a tet mesh; 1 for a ball.
 /// @param[in] tet_vertices Shape (num_tets, 4). @param[in] tet_part Shape (num_tets); parts are
 /// dense.
-/// @return Shape (num_parts). Local; O(n log n).
+/// @return Shape (num_parts). Local; linear.
 [[nodiscard]] std::vector<GlobalIndex> euler_characteristics(
     std::span<const LocalIndex> tet_vertices, std::span<const LocalIndex> tet_part);
 

@@ -42,27 +42,22 @@ std::vector<Vec3> vertex_normals(const surface::DomainSkin& skin,
   return normals;
 }
 
-std::array<LocalIndex, 2> side_at(const surface::DomainSkin& skin, std::size_t t, std::size_t c)
-{
-  const LocalIndex* v = &skin.triangle_vertices[3 * t];
-  return mesh::sorted_edge(v[c], v[(c + 1) % 3]);
-}
-
-mesh::RowTable<2> edges_of(const surface::DomainSkin& skin)
+mesh::NumberedRows<2> edges_of(const surface::DomainSkin& skin)
 {
   std::vector<std::array<LocalIndex, 2>> sides;
   for (std::size_t i = 0; i < skin.triangle_vertices.size(); ++i) {
-    sides.push_back(side_at(skin, i / 3, i % 3));
+    const LocalIndex* v = &skin.triangle_vertices[3 * (i / 3)];
+    sides.push_back(mesh::sorted_edge(v[i % 3], v[(i % 3 + 1) % 3]));
   }
-  return mesh::RowTable<2>(std::move(sides));
+  return mesh::number_rows(sides);
 }
 
-std::vector<Vec3> edge_normals(const surface::DomainSkin& skin, const mesh::RowTable<2>& edges,
+std::vector<Vec3> edge_normals(const mesh::NumberedRows<2>& edges,
                                const std::vector<std::array<Vec3, 3>>& triangles)
 {
-  std::vector<Vec3> normals(edges.rows().size());
-  for (std::size_t i = 0; i < skin.triangle_vertices.size(); ++i) {
-    Vec3& normal = normals[at(edges.index_of(side_at(skin, i / 3, i % 3)))];
+  std::vector<Vec3> normals(edges.rows.size());
+  for (std::size_t i = 0; i < edges.row_of.size(); ++i) {
+    Vec3& normal = normals[at(edges.row_of[i])];
     normal = normal + unit_normal_of(triangles[i / 3]);
   }
   return normals;
@@ -81,7 +76,7 @@ SkinDistance::SkinDistance(const surface::DomainSkin& skin)
       triangles_(triangles_of(skin)),
       vertex_normals_(vertex_normals(skin, triangles_)),
       edges_(edges_of(skin)),
-      edge_normals_(edge_normals(skin, edges_, triangles_)),
+      edge_normals_(edge_normals(edges_, triangles_)),
       search_(triangles_)
 {
 }
@@ -109,7 +104,7 @@ Vec3 SkinDistance::normal_at(const model::NearestPoint& nearest) const
     const Vec3& a = corners[c];
     const Vec3& b = corners[(c + 1) % 3];
     if (squared_distance_from_line(nearest.xyz, a, b) < kOnEdge * kOnEdge * dot(b - a, b - a)) {
-      return edge_normals_[at(edges_.index_of(side_at(skin_, at(nearest.simplex), c)))];
+      return edge_normals_[at(edges_.row_of[3 * at(nearest.simplex) + c])];
     }
   }
   return unit_normal_of(corners);

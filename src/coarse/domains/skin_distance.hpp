@@ -39,8 +39,8 @@ class SkinDistance {
   const surface::DomainSkin& skin_;
   std::vector<std::array<Vec3, 3>> triangles_;
   std::vector<Vec3> vertex_normals_;  // Of the triangles around, weighted by their angles there.
-  mesh::RowTable<2> edges_;
-  std::vector<Vec3> edge_normals_;  // Of the triangles beside each.
+  mesh::NumberedRows<2> edges_;       // Of the sides of the triangles, three each.
+  std::vector<Vec3> edge_normals_;    // Of the triangles beside each.
   model::TriangleSearch search_;
 };
 

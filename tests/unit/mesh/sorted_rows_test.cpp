@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/mesh/sorted_rows.hpp"
 
+#include <array>
+#include <functional>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace tessera::mesh {
@@ -39,16 +43,6 @@ TEST(NumberRows, TellsRowsOfThreeApartByEachVertex)
   const NumberedRows<3> numbered = number_rows(given);
   EXPECT_EQ(numbered.rows, (std::vector{given[3], given[1], given[2], given[0]}));
   EXPECT_EQ(numbered.row_of, (std::vector<LocalIndex>{3, 1, 2, 0}));
-}
-
-TEST(RowTable, HasEachRowOnceAndFindsIt)
-{
-  const RowTable<2> table({{4, 5}, {0, 3}, {4, 5}, {0, 1}, {9, 10}});
-  EXPECT_EQ(table.rows(), (Rows{{0, 1}, {0, 3}, {4, 5}, {9, 10}}));
-  for (std::size_t r = 0; r < table.rows().size(); ++r) {
-    EXPECT_EQ(at(table.index_of(table.rows()[r])), r);
-  }
-  EXPECT_TRUE(RowTable<2>({}).rows().empty());
 }
 
 TEST(FindRow, IsNoneForWhatIsNotThere)

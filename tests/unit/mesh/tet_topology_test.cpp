@@ -13,6 +13,8 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 
+#include "support/meshes.hpp"
+
 namespace tessera::mesh {
 namespace {
 
@@ -102,6 +104,23 @@ TEST(TetTopology, RefusesATriangleOfThreeTets)
   const std::vector<LocalIndex> tets{0, 1, 2, 3, 1, 2, 3, 4, 1, 2, 3, 5};
 
   EXPECT_THROW(static_cast<void>(triangles_of_tets(tets)), MeshError);
+}
+
+TEST(CountEdges, CountsThoseOfSeveralTetsOnce)
+{
+  EXPECT_EQ(count_edges(std::vector<LocalIndex>{}, 0), 0);
+  EXPECT_EQ(count_edges(std::vector<LocalIndex>{0, 1, 2, 3}, 4), 6);
+  EXPECT_EQ(count_edges(std::vector<LocalIndex>{0, 1, 2, 3, 4, 3, 2, 1}, 5), 9);
+  EXPECT_EQ(count_edges(std::vector<LocalIndex>{0, 1, 2, 3, 3, 6, 5, 4}, 7), 12);
+}
+
+// Of the grid, of the diagonals of its squares, and of its cubes.
+TEST(CountEdges, OfACubeOfCubes)
+{
+  const int n = 4;
+  const CoarseMesh cube = testing::kuhn_cube(n);
+  EXPECT_EQ(count_edges(cube.tet_vertices, cube.num_vertices()),
+            3 * n * (n + 1) * (n + 1) + 3 * n * n * (n + 1) + n * n * n);
 }
 
 }  // namespace
