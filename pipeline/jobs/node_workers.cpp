@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "tessera/base/bytes.hpp"
 
@@ -62,6 +63,7 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
     : jobs_(jobs), log_(log)
 {
   const comm::Communicator node = comm.ranks_of_node();
+  jobs.set_ranks_of_node(node.all_gather_rows(std::vector<int>{::getpid()}));
   const bool shares = node.size() >= kFewestRanksThatShare;
   const std::string obstacle = shares ? share_workers(node, comm.rank(), jobs) : std::string();
   const std::vector<std::string> obstacles =

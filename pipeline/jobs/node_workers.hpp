@@ -15,6 +15,7 @@ inline constexpr int kFewestRanksThatShare = 3;
 /// @brief As long as it lives, the jobs of all ranks of a node are forks of one process: the model
 /// is in memory once a node. A rank that cannot join keeps a model zygote of its own, and the log
 /// says why. What a shared process has loaded is gone at the end.
+/// Jobs that are alone have a thread for each rank of the node.
 class NodeWorkers {
  public:
   /// @note Collective.

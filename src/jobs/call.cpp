@@ -46,9 +46,10 @@ Call::Call(ZygoteLink& link, PacketKind kind, std::span<const std::byte> message
       limits_(limits),
       on_wait_(on_wait),
       number_(++link.num_calls),
-      log_file_(link.log_file.string()),
-      log_request_(PacketKind::log_file, number_, std::as_bytes(std::span(log_file_))),
-      request_(kind, number_, message),
+      settings_(to_bytes(link.settings)),
+      settings_request_(PacketKind::settings, number_, settings_),
+      request_(kind == PacketKind::run && limits.is_alone ? PacketKind::run_alone : kind, number_,
+               message),
       start_(Clock::now()),
       last_tick_(start_)
 {
@@ -86,11 +87,11 @@ void Call::wait_for_packets()
 void Call::send_request()
 {
   bool alive = true;
-  if (!link_.log_is_told) {
-    alive = log_request_.send_some(link_.data.get());
-    link_.log_is_told = log_request_.is_sent();
+  if (!link_.settings_are_told) {
+    alive = settings_request_.send_some(link_.data.get());
+    link_.settings_are_told = settings_request_.is_sent();
   }
-  if (alive && link_.log_is_told) alive = request_.send_some(link_.data.get());
+  if (alive && link_.settings_are_told) alive = request_.send_some(link_.data.get());
   if (!alive && !link_.has_joined()) link_.zygote_is_gone = true;
 }
 

@@ -59,8 +59,8 @@ class Call {
   const JobLimits& limits_;
   const JobRunner::WaitCallback& on_wait_;
   std::uint32_t number_;
-  std::string log_file_;
-  Outgoing log_request_;
+  Bytes settings_;
+  Outgoing settings_request_;
   Outgoing request_;
 
   Clock::time_point start_;

@@ -44,7 +44,8 @@ JobLimits smaller_of(const JobLimits& a, const JobLimits& b)
   return {.cpu_s = std::min(a.cpu_s, b.cpu_s),
           .stall_s = std::min(a.stall_s, b.stall_s),
           .memory_gib = std::min(a.memory_gib, b.memory_gib),
-          .idle_cpu_s = a.idle_cpu_s};
+          .idle_cpu_s = a.idle_cpu_s,
+          .is_alone = a.is_alone};
 }
 
 // A load that breaks a limit is ended by the rank whose model zygote it is, which can say why. Only
@@ -105,8 +106,14 @@ JobRunner::~JobRunner()
 void JobRunner::set_log_file(const std::filesystem::path& file)
 {
   // The worker processes keep the working directory of the time when they were forked.
-  state_->link.log_file = std::filesystem::absolute(file);
-  state_->link.log_is_told = false;
+  state_->link.settings.log_file = std::filesystem::absolute(file).string();
+  state_->link.settings_are_told = false;
+}
+
+void JobRunner::set_ranks_of_node(std::vector<int> processes)
+{
+  state_->link.settings.ranks_of_node = std::move(processes);
+  state_->link.settings_are_told = false;
 }
 
 void JobRunner::cap_limits(const JobLimits& largest) { state_->largest = largest; }

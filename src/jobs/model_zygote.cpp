@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/model_zygote.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <deque>
@@ -17,6 +18,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/threads.hpp"
 #include "tessera/jobs/this_process.hpp"
 
 #include "jobs/child_process.hpp"
@@ -59,6 +61,7 @@ struct Client {
   std::uint32_t first_call = 0;  ///< Requests with lower numbers are out of date.
   Incoming packets{};
   Assembly request{};
+  ClientSettings settings{};
   /// One for all jobs: to open it for each is a load on a parallel file system.
   FileDescriptor log{};
   std::deque<Message> unsent{};
@@ -201,8 +204,9 @@ class ModelZygote {
   void obey(Client& client, const PacketHeader& header, const Bytes& message)
   {
     switch (header.kind) {
-      case PacketKind::log_file:
-        client.log = open_log(text_of(message));
+      case PacketKind::settings:
+        client.settings = from_bytes<ClientSettings>(message);
+        client.log = open_log(client.settings.log_file);
         break;
       case PacketKind::open_door:
         open_door(client, header.call, message);
@@ -211,7 +215,7 @@ class ModelZygote {
         load(client, header.call, message);
         break;
       default:
-        run(client, header.call, message);
+        run(client, header, message);
     }
   }
 
@@ -278,8 +282,9 @@ class ModelZygote {
     return failure;
   }
 
-  void run(Client& client, std::uint32_t call, const Bytes& request)
+  void run(Client& client, const PacketHeader& header, const Bytes& request)
   {
+    const std::uint32_t call = header.call;
     try {
       worker();
     } catch (...) {
@@ -292,6 +297,8 @@ class ModelZygote {
     const pid_t job = ::fork();
     if (job == 0) {
       die_with_parent(model_zygote);
+      if (client.cores) move_to(*client.cores);
+      if (header.kind == PacketKind::run_alone) take_cores_of(client.settings.ranks_of_node);
       run_in_this_process(client, call, request);
     }
     if (job < 0) {
@@ -303,12 +310,19 @@ class ModelZygote {
     post(client, PacketKind::job_started, call, to_bytes(job));
   }
 
+  // A thread for each of some ranks, on the cores of all of them.
+  static void take_cores_of(const std::vector<int>& ranks)
+  {
+    Cores all;
+    for (const int rank : ranks) all |= cores_of(rank).value_or(Cores{});
+    if (move_to(all)) set_num_threads(static_cast<int>(std::min(ranks.size(), all.count())));
+  }
+
   [[noreturn]] void run_in_this_process(const Client& client, std::uint32_t call,
                                         const Bytes& request)
   {
     unblock_signals();
     children_ = {};
-    if (client.cores) move_to(*client.cores);
     redirect_output(client.log);
     begin_progress_reports(client.socket.get(), call);
     try {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -20,10 +21,11 @@ enum class PacketKind : std::uint32_t {
   kill_model,     ///< rank → zygote
   model_started,  ///< zygote, or model zygote that a rank has joined → rank: pid_t
   model_ended,    ///< zygote → rank: ProcessEnd
-  log_file,       ///< rank → model zygote: path, or empty
+  settings,       ///< rank → model zygote: ClientSettings
   open_door,      ///< rank → its model zygote: where others may join, or empty: no more
   load,           ///< rank → model zygote: what Worker::load() gets
   run,            ///< rank → model zygote: what Worker::run() gets
+  run_alone,      ///< the same, for a job that may have the cores of all ranks
   kill_job,       ///< rank → model zygote
   job_started,    ///< model zygote → rank: pid_t
   job_ended,      ///< model zygote → rank: ProcessEnd
@@ -32,6 +34,14 @@ enum class PacketKind : std::uint32_t {
   repairs,        ///< job → rank: RepairCounts
   result,         ///< model zygote after a load or open_door, or job → rank: bytes
   failure,        ///< model zygote after a load or open_door, or job → rank: bytes of a JobEnd
+};
+
+/// @brief What holds for all later loads and jobs of a rank.
+struct ClientSettings {
+  std::string log_file{};            ///< Of what they print; empty: nowhere.
+  std::vector<int> ranks_of_node{};  ///< Processes: jobs that are alone use the cores of all.
+
+  static auto fields(auto& self) { return std::tie(self.log_file, self.ranks_of_node); }
 };
 
 /// @brief How a process ended.

@@ -74,7 +74,7 @@ void ZygoteLink::join(const std::string& name)
   data_packets = std::move(packets);
   model_was_started = true;
   model = line.peer;
-  log_is_told = false;
+  settings_are_told = false;
   loaded_bytes = 0;
   model_bytes = 0;
 }

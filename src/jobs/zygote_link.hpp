@@ -28,8 +28,8 @@ struct ZygoteLink {
   bool model_was_started = false;  ///< And its end was not reported yet.
   pid_t model = 0;                 ///< 0 until the zygote has told.
   std::uint32_t num_calls = 0;
-  std::filesystem::path log_file{};
-  bool log_is_told = false;  ///< The model zygote knows log_file.
+  ClientSettings settings{};
+  bool settings_are_told = false;  ///< The model zygote knows them.
 
   std::size_t peak_bytes = 0;    ///< Of all worker processes together, since it was last zeroed.
   std::size_t loaded_bytes = 0;  ///< Of the zygotes together after the last load.
@@ -47,7 +47,7 @@ struct ZygoteLink {
     send_signal(control.get(), PacketKind::start_model, num_calls);
     model_was_started = true;
     model = 0;
-    log_is_told = false;
+    settings_are_told = false;
     loaded_bytes = 0;
     model_bytes = 0;
   }

@@ -10,6 +10,8 @@ import subprocess
 import sys
 import time
 
+GMSH = pathlib.Path(__file__).resolve().parent / "gmsh_hxt"
+MILLIMETRES = {"in": 25.4, "cm": 10.0, "m": 1000.0}
 
 @dataclasses.dataclass(frozen=True)
 class Subject:
@@ -50,6 +52,11 @@ class Run:
     def tets(self):
         return self.report["num_tets"]
 
+    @property
+    def unit_of_gmsh(self):
+        """How many of Gmsh's units one of ours is: it takes STEP in millimetres."""
+        return MILLIMETRES.get(self.report["model"]["length_unit"], 1.0)
+
     def stage_cpu_s(self, name):
         return sum(stage["cpu_s"] for stage in self.report["stages"] if stage["name"] == name)
 
@@ -78,3 +85,11 @@ def run_mesh(program, what, overrides, work, ranks=2):
     if done.returncode not in (0, 3):
         sys.exit(f"{what.name} with {', '.join(overrides)}: exit code {done.returncode}\n{done.stderr}")
     return Run(json.loads((work / "mesh" / "report.json").read_text()), wall_s, cpu_s)
+
+
+def gmsh(*arguments):
+    """What gmsh_hxt prints, in a process of its own. Its failure ends the bench."""
+    done = subprocess.run([GMSH, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"gmsh_hxt {' '.join(map(str, arguments))}: exit code {done.returncode}\n{done.stderr}")
+    return json.loads(done.stdout.splitlines()[-1])

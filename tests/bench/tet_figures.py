@@ -116,12 +116,17 @@ def sizes(points, tets):
     }
 
 
-def surface_angles(points, tets):
-    """Smallest angles of the boundary triangles: their 1st percentile and minimum, in degrees."""
+def boundary_triangles(tets):
+    """The faces of one tet only, as (num_triangles, 3) vertices."""
     faces = numpy.concatenate([tets[:, face] for face in FACES])
     keys = numpy.sort(faces, axis=1)
     _, first, count = numpy.unique(keys, axis=0, return_index=True, return_counts=True)
-    corners = points[faces[first[count == 1]]]
+    return faces[first[count == 1]]
+
+
+def surface_angles(points, tets):
+    """Smallest angles of the boundary triangles: their 1st percentile and minimum, in degrees."""
+    corners = points[boundary_triangles(tets)]
     smallest = numpy.full(len(corners), numpy.pi)
     for c in range(3):
         u = corners[:, (c + 1) % 3] - corners[:, c]

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/threads.hpp"
 
 namespace tessera::testing {
 namespace {
@@ -136,6 +137,7 @@ Bytes FailingWorker::obey(const std::string& text)
   if (command == "keep") kept_ = Bytes(std::stoul(argument) * kMiB, std::byte{1});
   if (command == "touch") std::fill(kept_.begin(), kept_.end(), std::byte{2});
   if (command == "pids") return bytes_of(pids());
+  if (command == "threads") return bytes_of(std::to_string(num_threads()));
   if (command == "descriptors") return bytes_of(num_open_descriptors());
   return {};
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
@@ -36,6 +37,8 @@ struct JobLimits {
   /// CPU time without report_progress(), seconds, or ten times the longest such time so far if that
   /// is more; 0: not watched.
   double idle_cpu_s = 0.0;
+  /// The other ranks of the node wait for it: it has a thread for each of them, on their cores.
+  bool is_alone = false;
 };
 
 /// @brief How a job ended.
@@ -121,6 +124,10 @@ class JobRunner {
   /// relative path starts at the working directory of this call. Without it they go to /dev/null.
   void set_log_file(const std::filesystem::path& file);
 
+  /// @brief Tells which processes are the ranks of this node, this one among them: for jobs that
+  /// are alone. Without it such a job is like others. Local.
+  void set_ranks_of_node(std::vector<int> processes);
+
   /// @brief Lets ranks of this node join: their jobs are forks of this rank's model zygote. Ends
   /// what was loaded before. Local. @pre this runner has not joined another one.
   /// @return The name by which they join.
@@ -135,10 +142,10 @@ class JobRunner {
   ///
   /// All ranks that use it must load the same in the same order, and none may load before all have
   /// ended the jobs that need the state before. A load is done once. A job ends with the rank that
-  /// asked for it, and runs on the cores of that rank; its environment and limits are those of the
-  /// other rank. What a load prints goes to the log of who asked first. If the model zygote dies,
-  /// all of them lose what was loaded. Then, and when a load is cancelled, every call is `crashed`
-  /// until leave_node().
+  /// asked for it, and runs on the cores of that rank, unless it is alone; its environment and
+  /// limits are those of the other rank. What a load prints goes to the log of who asked first. If
+  /// the model zygote dies, all of them lose what was loaded. Then, and when a load is cancelled,
+  /// every call is `crashed` until leave_node().
   /// @pre this runner neither has joined nor is open.
   /// @throws Error that says why it cannot join; then this runner works as before. (If its own
   /// processes do not answer in ten seconds, this and all later calls are `crashed`.)

@@ -7,15 +7,10 @@
 #include <utility>
 
 namespace tessera::pipeline {
-namespace {
 
-// Most rungs that work have ended by then, and nobody has worked in vain.
-constexpr double kHeadStart_s = 3.0;
-
-}  // namespace
-
-CoarseLadder::CoarseLadder(std::size_t num_rungs, std::function<double()> seconds)
-    : rungs_(num_rungs), seconds_(std::move(seconds))
+CoarseLadder::CoarseLadder(std::size_t num_rungs, std::function<double()> seconds,
+                           double head_start_s)
+    : rungs_(num_rungs), seconds_(std::move(seconds)), head_start_s_(head_start_s)
 {
 }
 
@@ -36,8 +31,8 @@ std::optional<comm::Task> CoarseLadder::next()
 {
   if (is_settled()) return std::nullopt;
   const std::size_t front = first_not_failed();
-  const bool may_go_on =
-      front > 0 || rungs_[0].state == State::waiting || seconds_() - first_start_s_ >= kHeadStart_s;
+  const bool may_go_on = front > 0 || rungs_[0].state == State::waiting
+                         || seconds_() - first_start_s_ >= head_start_s_;
   for (std::size_t i = front; may_go_on && i < first_decided(); ++i) {
     if (rungs_[i].state != State::waiting) continue;
     rungs_[i].state = State::running;

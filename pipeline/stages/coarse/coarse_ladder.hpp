@@ -27,7 +27,8 @@ enum class RungEnd : int {
 class CoarseLadder final : public comm::TaskSource {
  public:
   /// @param seconds A clock.
-  CoarseLadder(std::size_t num_rungs, std::function<double()> seconds);
+  /// @param head_start_s How long the first rung runs before others are begun, seconds.
+  CoarseLadder(std::size_t num_rungs, std::function<double()> seconds, double head_start_s);
 
   /// @brief The front. Once it has run for some seconds, or a rung has failed, also those behind
   /// it.
@@ -70,6 +71,7 @@ class CoarseLadder final : public comm::TaskSource {
 
   std::vector<Rung> rungs_;
   std::function<double()> seconds_;
+  double head_start_s_;
   double first_start_s_ = 0.0;  // Of the first rung.
 };
 

@@ -24,6 +24,10 @@
 namespace tessera::pipeline {
 namespace {
 
+// Of the time that the first try may take. Most that work have ended by then, at the least after
+// three seconds, and nobody has worked in vain.
+constexpr double kHeadStart = 0.05;
+
 // The model will not get better in another try.
 bool is_final(const jobs::JobEnd& end)
 {
@@ -79,7 +83,7 @@ class CoarseTries {
               RunContext& context)
       : file_(run_case.geometry.file.string()),
         plans_(std::move(plans)),
-        ladder_(plans_.size(), seconds_now),
+        ladder_(plans_.size(), seconds_now, kHeadStart * plans_.front().limits.cpu_s),
         stage_(stage),
         context_(context)
   {

@@ -68,10 +68,12 @@ DomainShare fill_share(const surface::CoarseSurface& surface, const surface::Coa
                        StageScope& stage, RunContext& context)
 {
   DomainShare share;
+  const std::vector<double> weights = triangles_of_domains(surface);
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
     const LocalIndex domain = item + 1;
     surface::DomainSkin skin = surface::skin_of(surface, domain);
-    const jobs::JobLimits limits = domain_limits(options, skin);
+    jobs::JobLimits limits = domain_limits(options, skin);
+    limits.is_alone = weights.size() == 1;
     const Bytes request = coarse_domain_request(std::move(skin), options);
     auto [tets, end, cpu_s] = result_of<surface::DomainTets>(
         {fmt::format("coarse: domain {}", domain), request, limits}, on_wait, context);
@@ -82,7 +84,6 @@ DomainShare fill_share(const surface::CoarseSurface& surface, const surface::Coa
       share.failed.push_back({domain, std::move(end)});
     }
   };
-  const std::vector<double> weights = triangles_of_domains(surface);
   for_each_dynamic(heaviest_first(weights), fill, stage, context);
   return share;
 }

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 
 #include "tessera/base/box.hpp"
+#include "tessera/base/threads.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/surface/size_function.hpp"
 
@@ -43,6 +45,20 @@ std::vector<surface::SizeSource> sizes_of(const std::vector<std::array<Vec3, 3>>
   return sources;
 }
 
+// Whether each point is inside, and not too near to the skin.
+std::vector<char> find_inside(std::span<const LatticePoint> points, const SkinDistance& distance)
+{
+  std::vector<char> is_inside(points.size());
+  for_each_chunk_in_threads(points.size(), [&](std::size_t first, std::size_t last) {
+    InsideFinder finder(distance);
+    for (std::size_t i = first; i < last; ++i) {
+      const auto& [xyz, spacing] = points[i];
+      is_inside[i] = finder.is_inside(xyz, kLeastDistance * spacing) ? 1 : 0;
+    }
+  });
+  return is_inside;
+}
+
 }  // namespace
 
 std::vector<double> lattice_points(const surface::DomainSkin& skin,
@@ -60,9 +76,10 @@ std::vector<double> lattice_points(const surface::DomainSkin& skin,
                              return !distance.is_outside(place, within);
                            }};
   const Box box = bounding_box(skin.vertex_xyz);
-  for (const LatticePoint& point : octree_lattice(box, cell_side(inside.max_size), space)) {
-    if (!distance.is_inside(point.xyz, kLeastDistance * point.spacing)) continue;
-    xyz.insert(xyz.end(), point.xyz.begin(), point.xyz.end());
+  const std::vector<LatticePoint> points = octree_lattice(box, cell_side(inside.max_size), space);
+  const std::vector<char> is_inside = find_inside(points, distance);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_inside[i] != 0) xyz.insert(xyz.end(), points[i].xyz.begin(), points[i].xyz.end());
   }
   return xyz;
 }

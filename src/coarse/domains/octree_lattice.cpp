@@ -10,6 +10,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/base/threads.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -87,9 +88,8 @@ class Octree {
   {
     std::vector<Cell> cells = roots_;
     while (!cells.empty() && halved_.size() < kDeepest) {
-      std::erase_if(cells, [&](const Cell& cell) { return !is_too_coarse(cell); });
-      halved_.push_back(cells);
-      cells = children_of(cells);
+      halved_.push_back(too_coarse_ones(cells));
+      cells = children_of(halved_.back());
       require_few(static_cast<double>(cells.size()));
     }
     grade();
@@ -140,6 +140,19 @@ class Octree {
       num_roots *= static_cast<double>(high[axis] - low[axis] + 1);
     }
     return num_roots;
+  }
+
+  [[nodiscard]] std::vector<Cell> too_coarse_ones(const std::vector<Cell>& cells) const
+  {
+    std::vector<char> is_one(cells.size());
+    for_each_chunk_in_threads(cells.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) is_one[i] = is_too_coarse(cells[i]) ? 1 : 0;
+    });
+    std::vector<Cell> ones;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (is_one[i] != 0) ones.push_back(cells[i]);
+    }
+    return ones;
   }
 
   // Sizes are asked for in the middles of the children.

@@ -15,7 +15,8 @@ struct LatticePoint {
   double spacing = 0.0;  ///< Root mean square of the edges between such points.
 };
 
-/// @brief What octree_lattice() is told of a space. Pure functions.
+/// @brief What octree_lattice() is told of a space. Pure functions, which are asked in several
+/// threads at once.
 struct LatticeSpace {
   /// The edge length that is wanted at a place, > 0.
   std::function<double(const Vec3& place)> wanted_edge;

@@ -81,13 +81,13 @@ SkinDistance::SkinDistance(const surface::DomainSkin& skin)
 {
 }
 
-int SkinDistance::side_of(const Vec3& point, double least) const
+SkinDistance::Place SkinDistance::find(const Vec3& point, double least) const
 {
   const model::NearestPoint nearest = search_.nearest(point);
-  if (nearest.squared_distance < least * least) return 0;
+  if (nearest.squared_distance < least * least) return {};
   const double cosine = dot(unit(point - nearest.xyz), unit(normal_at(nearest)));
   const bool is_inside = std::abs(cosine) > kLeastCosine ? cosine < 0.0 : is_wound_around(point);
-  return is_inside ? -1 : 1;
+  return {is_inside ? -1 : 1, std::sqrt(nearest.squared_distance)};
 }
 
 // At a vertex or an edge one triangle says nothing. The mean of those around does, by their angles
@@ -115,6 +115,17 @@ bool SkinDistance::is_wound_around(const Vec3& point) const
   double angle = 0.0;
   for (const auto& corners : triangles_) angle += model::solid_angle(corners, point);
   return angle > 2.0 * std::numbers::pi;
+}
+
+bool InsideFinder::is_inside(const Vec3& point, double least)
+{
+  constexpr double kRounding = 1e-9;
+  const double free = (1.0 - kRounding) * place_.distance - norm(point - last_);
+  if (place_.side < 0 && free >= least) return true;
+  if (place_.side > 0 && free > 0.0) return false;
+  last_ = point;
+  place_ = distance_.find(point, least);
+  return place_.side < 0;
 }
 
 }  // namespace tessera::coarse

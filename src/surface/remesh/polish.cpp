@@ -22,7 +22,7 @@ class Polisher {
 
   void run()
   {
-    int since = 0;
+    int since = kNever;
     for (int i = 0; i < kMostSweeps; ++i) {
       const auto worst = bad_triangles(since);
       since = editor_.begin_pass();

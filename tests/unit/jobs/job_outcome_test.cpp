@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -54,6 +55,19 @@ TEST_F(JobOutcomes, ChangesOfARunAreLost)
 {
   EXPECT_EQ(run("append a").status, JobStatus::ok);
   EXPECT_EQ(text_of(run("get").result), "");
+}
+
+TEST_F(JobOutcomes, AJobThatIsAloneHasAThreadForEachRankOfItsNode)
+{
+  const JobLimits alone{.is_alone = true};
+  const auto num_threads_of_job = [&](const JobLimits& limits) {
+    return text_of(runner_.run(bytes_of("threads"), limits, {}).result);
+  };
+  EXPECT_EQ(num_threads_of_job(alone), "1") << "no ranks are known";
+  runner_.set_ranks_of_node({::getpid(), ::getppid()});
+  EXPECT_EQ(num_threads_of_job({}), "1");
+  const unsigned num_cores = std::thread::hardware_concurrency();
+  EXPECT_EQ(num_threads_of_job(alone), num_cores > 1 ? "2" : "1");
 }
 
 TEST_F(JobOutcomes, ExceptionsArriveWithKindAndText)

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/threads.hpp"
 #include "tessera/model/triangle_surface.hpp"
 
 #include "support/flat_model.hpp"
@@ -255,6 +256,23 @@ TEST(Remesh, GivesTheSameBitsAgain)
 {
   const SurfaceReference reference(surface_of(testing::sphere_soup(3)));
   EXPECT_EQ(remesh(reference, of_size(0.3)).vertex_xyz, remesh(reference, of_size(0.3)).vertex_xyz);
+}
+
+// Patches with a thousand squares of the size are edited alone, side by side.
+TEST(Remesh, GivesTheSameBitsForAnyNumberOfThreads)
+{
+  const SurfaceReference reference(cube());
+  const PatchSurface alone = remesh(reference, of_size(0.025));
+  set_num_threads(3);
+  const PatchSurface side_by_side = remesh(reference, of_size(0.025));
+  set_num_threads(1);
+  EXPECT_EQ(alone.vertex_xyz, side_by_side.vertex_xyz);
+  EXPECT_EQ(alone.triangles, side_by_side.triangles);
+  EXPECT_NO_THROW(validate(alone));
+  EXPECT_NEAR(volume_of(alone), 1.0, 1e-12);
+  EXPECT_GT(worst_quality(alone), 0.5);
+  EXPECT_LT(longest_edge(alone), 0.05);
+  EXPECT_EQ(std::ranges::count(alone.vertex_is_fixed, 1), 8) << "rims move again in the end";
 }
 
 // Two triangles on each of two sheets that meet in a square; the sheets cut it by one diagonal.

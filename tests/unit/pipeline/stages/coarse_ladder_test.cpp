@@ -26,7 +26,7 @@ class CoarseLadderTest : public ::testing::Test {
   }
 
   double now_s_ = 0.0;
-  CoarseLadder ladder_{5, [this] { return now_s_; }};
+  CoarseLadder ladder_{5, [this] { return now_s_; }, 3.0};
 };
 
 TEST_F(CoarseLadderTest, TheFirstRungHasAHeadStart)
@@ -118,7 +118,7 @@ TEST_F(CoarseLadderTest, ASnapshotHasEverything)
 {
   end(0, RungEnd::failed);
   end(1, RungEnd::surface, 2);
-  CoarseLadder other(5, [] { return 0.0; });
+  CoarseLadder other(5, [] { return 0.0; }, 3.0);
   other.restore(ladder_.snapshot());
   EXPECT_EQ(other.front(), 1);
   EXPECT_EQ(other.holder(1), 2);

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/remesh/patch_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::surface {
+namespace {
+
+using Edge = PatchSurface::Edge;
+using Triangle = PatchSurface::Triangle;
+
+// Vertices of curves and of several patches, and those that are fixed.
+std::vector<char> vertices_of_rims(const PatchSurface& whole)
+{
+  std::vector<char> is_on_rim = whole.vertex_is_fixed;
+  for (const Edge& edge : whole.edges) {
+    for (const LocalIndex v : edge) is_on_rim[at(v)] = 1;
+  }
+  std::vector<LocalIndex> patch_of(whole.vertex_xyz.size(), kNoIndex);
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    for (const LocalIndex v : whole.triangles[t]) {
+      LocalIndex& patch = patch_of[at(v)];
+      if (patch != kNoIndex && patch != whole.triangle_patch[t]) is_on_rim[at(v)] = 1;
+      patch = whole.triangle_patch[t];
+    }
+  }
+  return is_on_rim;
+}
+
+// Takes the patches of a surface out of it, one after the other.
+class PartTaker {
+ public:
+  explicit PartTaker(const PatchSurface& whole)
+      : whole_(whole),
+        is_on_rim_(vertices_of_rims(whole)),
+        number_(whole.vertex_xyz.size(), kNoIndex),
+        edges_at_(whole.vertex_xyz.size())
+  {
+    for (std::size_t e = 0; e < whole.edges.size(); ++e)
+      edges_at_[at(whole.edges[e][0])].push_back(e);
+  }
+
+  PatchPart take(const std::vector<std::size_t>& triangles)
+  {
+    PatchPart part;
+    for (const std::size_t t : triangles) {
+      for (const LocalIndex v : whole_.triangles[t]) {
+        if (std::exchange(number_[at(v)], 0) != kNoIndex) continue;
+        (is_on_rim_[at(v)] != 0 ? part.rim : part.inside).push_back(v);
+      }
+    }
+    std::ranges::sort(part.rim);
+    std::ranges::sort(part.inside);
+    add_vertices(part.rim, part.surface);
+    add_vertices(part.inside, part.surface);
+    for (const std::size_t t : triangles) {
+      const Triangle& v = whole_.triangles[t];
+      part.surface.triangles.push_back({number_[at(v[0])], number_[at(v[1])], number_[at(v[2])]});
+    }
+    part.surface.triangle_patch.assign(triangles.size(), whole_.triangle_patch[triangles.front()]);
+    add_edges(part);
+    for (const auto* vertices : {&part.rim, &part.inside}) {
+      for (const LocalIndex v : *vertices) number_[at(v)] = kNoIndex;
+    }
+    return part;
+  }
+
+ private:
+  void add_vertices(const std::vector<LocalIndex>& vertices, PatchSurface& surface)
+  {
+    for (const LocalIndex v : vertices) {
+      number_[at(v)] = static_cast<LocalIndex>(surface.vertex_xyz.size());
+      surface.vertex_xyz.push_back(whole_.vertex_xyz[at(v)]);
+      surface.vertex_is_fixed.push_back(is_on_rim_[at(v)]);
+    }
+  }
+
+  void add_edges(PatchPart& part) const
+  {
+    for (const LocalIndex v : part.rim) {
+      for (const std::size_t e : edges_at_[at(v)]) {
+        const LocalIndex end = number_[at(whole_.edges[e][1])];
+        if (end == kNoIndex) continue;
+        part.surface.edges.push_back({number_[at(v)], end});
+        part.surface.edge_curve.push_back(whole_.edge_curve[e]);
+      }
+    }
+  }
+
+  const PatchSurface& whole_;
+  std::vector<char> is_on_rim_;
+  std::vector<LocalIndex> number_;                  // In the part that is being taken.
+  std::vector<std::vector<std::size_t>> edges_at_;  // Rows of the edges, at their lower vertices.
+};
+
+std::vector<std::vector<std::size_t>> triangles_of_patches(const PatchSurface& whole)
+{
+  std::vector<std::vector<std::size_t>> triangles(at(whole.num_patches()));
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    triangles[at(whole.triangle_patch[t])].push_back(t);
+  }
+  return triangles;
+}
+
+// Edges of no curve, and triangles, all of whose vertices are on a rim, by their numbers in the
+// whole: only these may be those of another patch. An edge has kNoIndex in the last place.
+std::set<Triangle> bridges_of(const PatchSurface& surface, const std::vector<LocalIndex>& rim)
+{
+  const auto is_on_rim = [&](LocalIndex v) { return at(v) < rim.size(); };
+  std::set<Triangle> bridges;
+  for (const Triangle& v : surface.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Edge edge = mesh::sorted_edge(v[c], v[(c + 1) % 3]);
+      if (!is_on_rim(edge[1]) || std::ranges::binary_search(surface.edges, edge)) continue;
+      bridges.insert({rim[at(edge[0])], rim[at(edge[1])], kNoIndex});
+    }
+    if (!std::ranges::all_of(v, is_on_rim)) continue;
+    Triangle all{rim[at(v[0])], rim[at(v[1])], rim[at(v[2])]};
+    std::ranges::sort(all);
+    bridges.insert(all);
+  }
+  return bridges;
+}
+
+// Of each part, whether its edited surface can be taken.
+std::vector<char> find_takeable(const std::vector<PatchPart>& parts,
+                                const std::vector<std::optional<PatchSurface>>& edited)
+{
+  std::vector<char> is_takeable;
+  for (const auto& one : edited) is_takeable.push_back(one ? 1 : 0);
+  for (bool has_clash = true; has_clash;) {
+    has_clash = false;
+    std::map<Triangle, std::vector<std::size_t>> parts_of_bridge;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const PatchSurface& surface = is_takeable[i] != 0 ? *edited[i] : parts[i].surface;
+      for (const Triangle& bridge : bridges_of(surface, parts[i].rim)) {
+        parts_of_bridge[bridge].push_back(i);
+      }
+    }
+    for (const auto& [bridge, holders] : parts_of_bridge) {
+      if (holders.size() == 1) continue;
+      for (const std::size_t i : holders)
+        has_clash = std::exchange(is_takeable[i], 0) != 0 || has_clash;
+    }
+  }
+  return is_takeable;
+}
+
+class PatchJoiner {
+ public:
+  PatchJoiner(const PatchSurface& whole, const std::vector<PatchPart>& parts,
+              const std::vector<char>& is_edited)
+      : number_(whole.vertex_xyz.size(), kNoIndex)
+  {
+    std::vector<char> stays(number_.size(), 0);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (const LocalIndex v : parts[i].rim) stays[at(v)] = 1;
+      if (is_edited[i] != 0) continue;
+      for (const LocalIndex v : parts[i].inside) stays[at(v)] = 1;
+    }
+    for (std::size_t v = 0; v < number_.size(); ++v) {
+      if (stays[v] != 0) number_[v] = add_vertex(whole.vertex_xyz[v], whole.vertex_is_fixed[v]);
+    }
+    for (const Edge& edge : whole.edges) {
+      joined_.edges.push_back({number_[at(edge[0])], number_[at(edge[1])]});
+    }
+    joined_.edge_curve = whole.edge_curve;
+    joined_.patch_materials = whole.patch_materials;
+  }
+
+  // The first vertices of `surface` are these of the whole; others are new.
+  void add(const PatchSurface& surface, const std::vector<LocalIndex>& vertices)
+  {
+    std::vector<LocalIndex> numbers;
+    for (const LocalIndex v : vertices) numbers.push_back(number_[at(v)]);
+    for (std::size_t v = numbers.size(); v < surface.vertex_xyz.size(); ++v) {
+      numbers.push_back(add_vertex(surface.vertex_xyz[v], surface.vertex_is_fixed[v]));
+    }
+    for (const Triangle& v : surface.triangles) {
+      joined_.triangles.push_back({numbers[at(v[0])], numbers[at(v[1])], numbers[at(v[2])]});
+    }
+    joined_.triangle_patch.insert(joined_.triangle_patch.end(), surface.triangle_patch.begin(),
+                                  surface.triangle_patch.end());
+  }
+
+  PatchSurface take() && { return std::move(joined_); }
+
+ private:
+  LocalIndex add_vertex(const Vec3& xyz, char is_fixed)
+  {
+    joined_.vertex_xyz.push_back(xyz);
+    joined_.vertex_is_fixed.push_back(is_fixed);
+    return static_cast<LocalIndex>(joined_.vertex_xyz.size()) - 1;
+  }
+
+  std::vector<LocalIndex> number_;  // Of vertices of the whole that stay.
+  PatchSurface joined_{};
+};
+
+}  // namespace
+
+std::vector<PatchPart> patch_parts_of(const PatchSurface& whole)
+{
+  PartTaker taker(whole);
+  std::vector<PatchPart> parts;
+  for (const std::vector<std::size_t>& triangles : triangles_of_patches(whole)) {
+    if (!triangles.empty()) parts.push_back(taker.take(triangles));
+  }
+  return parts;
+}
+
+JoinedPatches join_patches(const PatchSurface& whole, const std::vector<PatchPart>& parts,
+                           const std::vector<std::optional<PatchSurface>>& edited)
+{
+  const std::vector<char> is_edited = find_takeable(parts, edited);
+  PatchJoiner joiner(whole, parts, is_edited);
+  JoinedPatches joined;
+  joined.is_edited.assign(at(whole.num_patches()), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto& [surface, rim, inside] = parts[i];
+    if (is_edited[i] != 0) {
+      joiner.add(*edited[i], rim);
+    } else {
+      std::vector<LocalIndex> all = rim;
+      all.insert(all.end(), inside.begin(), inside.end());
+      joiner.add(surface, all);
+    }
+    joined.is_edited[at(surface.triangle_patch.front())] = is_edited[i];
+  }
+  joined.surface = std::move(joiner).take();
+  return joined;
+}
+
+}  // namespace tessera::surface
