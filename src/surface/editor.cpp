@@ -79,20 +79,6 @@ std::vector<Edge> SurfaceEditor::changed_edges(int pass) const
   return surface_.edges([&](LocalIndex v) { return has_changed(v, pass); });
 }
 
-void SurfaceEditor::settle(const std::vector<char>& is_edited)
-{
-  std::ranges::fill(changed_, kNever);
-  for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
-    const Triangle& v = surface_.triangle(t);
-    const bool is_settled =
-        is_edited[at(surface_.patch(t))] != 0 && std::ranges::all_of(v, [this](LocalIndex corner) {
-          return surface_.freedom(corner) == Freedom::patch;
-        });
-    if (is_settled) continue;
-    for (const LocalIndex corner : v) changed_[at(corner)] = pass_;
-  }
-}
-
 bool SurfaceEditor::is_guarded(LocalIndex v) const
 {
   if (!guard_) return false;

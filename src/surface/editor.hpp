@@ -56,8 +56,8 @@ class SurfaceEditor {
   int begin_pass() { return ++pass_; }
   /// @brief Whether a triangle around the vertex changed in this pass or later.
   [[nodiscard]] bool has_changed(LocalIndex v, int pass) const { return changed_[at(v)] >= pass; }
-  /// @brief Only vertices beside curves, and those of patches that are not edited, have changed.
-  void settle(const std::vector<char>& is_edited);
+  /// @brief Nothing counts as changed at the vertex until something changes there.
+  void settle(LocalIndex v) { changed_[at(v)] = kNever; }
   /// @brief How many changes there have been.
   [[nodiscard]] int num_changes() const { return num_changes_; }
   /// @brief Whether a step at the vertex would come to what it came to when there had been so many

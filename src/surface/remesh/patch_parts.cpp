@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::surface {
@@ -31,6 +32,20 @@ std::vector<char> vertices_of_rims(const PatchSurface& whole)
     }
   }
   return is_on_rim;
+}
+
+// Sides of triangles of a part that lead from rim to rim, ascending.
+std::vector<Edge> sides_on_rim(const PatchSurface& surface, const std::vector<LocalIndex>& rim)
+{
+  std::vector<Edge> sides;
+  for (const Triangle& v : surface.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Edge side = mesh::sorted_edge(v[c], v[(c + 1) % 3]);
+      if (at(side[1]) < rim.size()) sides.push_back(side);
+    }
+  }
+  sort_unique(sides);
+  return sides;
 }
 
 // Takes the patches of a surface out of it, one after the other.
@@ -83,11 +98,12 @@ class PartTaker {
 
   void add_edges(PatchPart& part) const
   {
+    const std::vector<Edge> sides = sides_on_rim(part.surface, part.rim);
     for (const LocalIndex v : part.rim) {
       for (const std::size_t e : edges_at_[at(v)]) {
-        const LocalIndex end = number_[at(whole_.edges[e][1])];
-        if (end == kNoIndex) continue;
-        part.surface.edges.push_back({number_[at(v)], end});
+        const Edge edge{number_[at(v)], number_[at(whole_.edges[e][1])]};
+        if (!std::ranges::binary_search(sides, edge)) continue;
+        part.surface.edges.push_back(edge);
         part.surface.edge_curve.push_back(whole_.edge_curve[e]);
       }
     }
@@ -114,12 +130,11 @@ std::set<Triangle> bridges_of(const PatchSurface& surface, const std::vector<Loc
 {
   const auto is_on_rim = [&](LocalIndex v) { return at(v) < rim.size(); };
   std::set<Triangle> bridges;
+  for (const auto& [a, b] : sides_on_rim(surface, rim)) {
+    if (std::ranges::binary_search(surface.edges, Edge{a, b})) continue;
+    bridges.insert({rim[at(a)], rim[at(b)], kNoIndex});
+  }
   for (const Triangle& v : surface.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Edge edge = mesh::sorted_edge(v[c], v[(c + 1) % 3]);
-      if (!is_on_rim(edge[1]) || std::ranges::binary_search(surface.edges, edge)) continue;
-      bridges.insert({rim[at(edge[0])], rim[at(edge[1])], kNoIndex});
-    }
     if (!std::ranges::all_of(v, is_on_rim)) continue;
     Triangle all{rim[at(v[0])], rim[at(v[1])], rim[at(v[2])]};
     std::ranges::sort(all);
@@ -128,12 +143,24 @@ std::set<Triangle> bridges_of(const PatchSurface& surface, const std::vector<Loc
   return bridges;
 }
 
+// Whether an edge within the part is one of a curve of others.
+bool crosses_curve(const PatchSurface& whole, const PatchSurface& surface,
+                   const std::vector<LocalIndex>& rim)
+{
+  return std::ranges::any_of(bridges_of(surface, rim), [&](const Triangle& bridge) {
+    return bridge[2] == kNoIndex
+           && std::ranges::binary_search(whole.edges, Edge{bridge[0], bridge[1]});
+  });
+}
+
 // Of each part, whether its edited surface can be taken.
-std::vector<char> find_takeable(const std::vector<PatchPart>& parts,
+std::vector<char> find_takeable(const PatchSurface& whole, const std::vector<PatchPart>& parts,
                                 const std::vector<std::optional<PatchSurface>>& edited)
 {
   std::vector<char> is_takeable;
-  for (const auto& one : edited) is_takeable.push_back(one ? 1 : 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    is_takeable.push_back(edited[i] && !crosses_curve(whole, *edited[i], parts[i].rim) ? 1 : 0);
+  }
   for (bool has_clash = true; has_clash;) {
     has_clash = false;
     std::map<Triangle, std::vector<std::size_t>> parts_of_bridge;
@@ -218,7 +245,7 @@ std::vector<PatchPart> patch_parts_of(const PatchSurface& whole)
 JoinedPatches join_patches(const PatchSurface& whole, const std::vector<PatchPart>& parts,
                            const std::vector<std::optional<PatchSurface>>& edited)
 {
-  const std::vector<char> is_edited = find_takeable(parts, edited);
+  const std::vector<char> is_edited = find_takeable(whole, parts, edited);
   PatchJoiner joiner(whole, parts, is_edited);
   JoinedPatches joined;
   joined.is_edited.assign(at(whole.num_patches()), 0);

@@ -102,5 +102,26 @@ TEST(PatchParts, WhatTakesAnEdgeOfAnotherPatchStaysAsItWas)
   EXPECT_EQ(surface.triangles, whole.triangles);
 }
 
+// The same where the diagonal is a curve on which two other patches stand.
+TEST(PatchParts, WhatTakesAnEdgeOfACurveStaysAsItWas)
+{
+  PatchSurface whole = tent();
+  whole.triangles[4] = {0, 4, 1};
+  whole.triangles[5] = {4, 3, 1};
+  whole.vertex_xyz.push_back({0.5, 0.5, -1});
+  whole.vertex_is_fixed.push_back(1);
+  whole.triangles.insert(whole.triangles.end(), {{0, 3, 5}, {3, 0, 5}});
+  whole.triangle_patch.insert(whole.triangle_patch.end(), {2, 3});
+  whole.patch_materials.assign(4, {1, 0});
+  whole.edges = {{0, 1}, {0, 3}, {0, 4}, {0, 5}, {1, 3}, {3, 4}, {3, 5}};
+  whole.edge_curve = {0, 4, 1, 5, 2, 3, 6};
+  const std::vector<PatchPart> parts = patch_parts_of(whole);
+  ASSERT_EQ(parts.size(), 4U);
+  const auto [surface, is_edited] = join_patches(
+      whole, parts, {flat_roof(parts[0], true), std::nullopt, std::nullopt, std::nullopt});
+  EXPECT_EQ(is_edited, (std::vector<char>{0, 0, 0, 0}));
+  EXPECT_EQ(surface.triangles, whole.triangles);
+}
+
 }  // namespace
 }  // namespace tessera::surface

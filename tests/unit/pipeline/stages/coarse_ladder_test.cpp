@@ -118,7 +118,8 @@ TEST_F(CoarseLadderTest, ASnapshotHasEverything)
 {
   end(0, RungEnd::failed);
   end(1, RungEnd::surface, 2);
-  CoarseLadder other(5, [] { return 0.0; }, 3.0);
+  CoarseLadder other(
+      5, [] { return 0.0; }, 3.0);
   other.restore(ladder_.snapshot());
   EXPECT_EQ(other.front(), 1);
   EXPECT_EQ(other.holder(1), 2);
