@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/jobs/this_process.hpp"
 
 #include "pipeline/jobs/replaceable_parts.hpp"
 
@@ -63,7 +63,7 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
     : jobs_(jobs), log_(log)
 {
   const comm::Communicator node = comm.ranks_of_node();
-  jobs.set_ranks_of_node(node.all_gather_rows(std::vector<int>{::getpid()}));
+  jobs.set_node(node.size(), node.all_gather_rows(jobs::cores_of_this_thread()));
   const bool shares = node.size() >= kFewestRanksThatShare;
   const std::string obstacle = shares ? share_workers(node, comm.rank(), jobs) : std::string();
   const std::vector<std::string> obstacles =
@@ -75,6 +75,7 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
 
 NodeWorkers::~NodeWorkers()
 {
+  jobs_.set_node(1, {});
   const std::string obstacle = obstacle_to([&] { jobs_.leave_node(); });
   if (!obstacle.empty()) log_.debug(fmt::format("workers of this node: {}", obstacle));
 }

@@ -110,9 +110,10 @@ void JobRunner::set_log_file(const std::filesystem::path& file)
   state_->link.settings_are_told = false;
 }
 
-void JobRunner::set_ranks_of_node(std::vector<int> processes)
+void JobRunner::set_node(int num_ranks, std::vector<int> cores)
 {
-  state_->link.settings.ranks_of_node = std::move(processes);
+  state_->link.settings.num_ranks_of_node = num_ranks;
+  state_->link.settings.cores_of_node = std::move(cores);
   state_->link.settings_are_told = false;
 }
 

@@ -298,7 +298,7 @@ class ModelZygote {
     if (job == 0) {
       die_with_parent(model_zygote);
       if (client.cores) move_to(*client.cores);
-      if (header.kind == PacketKind::run_alone) take_cores_of(client.settings.ranks_of_node);
+      if (header.kind == PacketKind::run_alone) spread_over_node(client.settings);
       run_in_this_process(client, call, request);
     }
     if (job < 0) {
@@ -310,12 +310,15 @@ class ModelZygote {
     post(client, PacketKind::job_started, call, to_bytes(job));
   }
 
-  // A thread for each of some ranks, on the cores of all of them.
-  static void take_cores_of(const std::vector<int>& ranks)
+  // A thread for each rank of the node, on the cores of all of them: on those that the system lets
+  // this process have.
+  static void spread_over_node(const ClientSettings& settings)
   {
     Cores all;
-    for (const int rank : ranks) all |= cores_of(rank).value_or(Cores{});
-    if (move_to(all)) set_num_threads(static_cast<int>(std::min(ranks.size(), all.count())));
+    for (const int core : settings.cores_of_node) all.set(at(core));
+    if (!move_to(all)) return;
+    const auto num_cores = cores_of(0).value_or(Cores{}).count();
+    set_num_threads(std::min(settings.num_ranks_of_node, static_cast<int>(num_cores)));
   }
 
   [[noreturn]] void run_in_this_process(const Client& client, std::uint32_t call,

@@ -38,10 +38,14 @@ enum class PacketKind : std::uint32_t {
 
 /// @brief What holds for all later loads and jobs of a rank.
 struct ClientSettings {
-  std::string log_file{};            ///< Of what they print; empty: nowhere.
-  std::vector<int> ranks_of_node{};  ///< Processes: jobs that are alone use the cores of all.
+  std::string log_file{};  ///< Of what they print; empty: nowhere.
+  int num_ranks_of_node = 1;
+  std::vector<int> cores_of_node{};  ///< Numbers of those of all its ranks.
 
-  static auto fields(auto& self) { return std::tie(self.log_file, self.ranks_of_node); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.log_file, self.num_ranks_of_node, self.cores_of_node);
+  }
 };
 
 /// @brief How a process ended.

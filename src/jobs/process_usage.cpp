@@ -13,6 +13,8 @@
 #include "tessera/base/file_descriptor.hpp"
 #include "tessera/jobs/this_process.hpp"
 
+#include "jobs/child_process.hpp"
+
 namespace tessera::jobs {
 namespace {
 
@@ -89,5 +91,15 @@ double cpu_time_of_this_process()
 }
 
 std::size_t peak_rss_of_this_process() { return peak_rss_bytes(::getpid()); }
+
+std::vector<int> cores_of_this_thread()
+{
+  const Cores cores = cores_of(0).value_or(Cores{});
+  std::vector<int> numbers;
+  for (std::size_t core = 0; core < cores.size(); ++core) {
+    if (cores[core]) numbers.push_back(static_cast<int>(core));
+  }
+  return numbers;
+}
 
 }  // namespace tessera::jobs

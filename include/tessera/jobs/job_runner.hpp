@@ -124,9 +124,9 @@ class JobRunner {
   /// relative path starts at the working directory of this call. Without it they go to /dev/null.
   void set_log_file(const std::filesystem::path& file);
 
-  /// @brief Tells which processes are the ranks of this node, this one among them: for jobs that
-  /// are alone. Without it such a job is like others. Local.
-  void set_ranks_of_node(std::vector<int> processes);
+  /// @brief Tells how many ranks this node has, and on which cores they run, for jobs that are
+  /// alone. Without it such a job is like others. Local.
+  void set_node(int num_ranks, std::vector<int> cores);
 
   /// @brief Lets ranks of this node join: their jobs are forks of this rank's model zygote. Ends
   /// what was loaded before. Local. @pre this runner has not joined another one.

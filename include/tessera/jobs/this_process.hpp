@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace tessera::jobs {
 
@@ -12,6 +13,10 @@ namespace tessera::jobs {
 
 /// @brief CPU time of all threads of the calling process since it started, seconds. Local.
 [[nodiscard]] double cpu_time_of_this_process();
+
+/// @brief Numbers of the cores on which the calling thread may run, ascending; none if that cannot
+/// be told. Local.
+[[nodiscard]] std::vector<int> cores_of_this_thread();
 
 /// @brief In a job: tells its rank that it got on, for JobLimits::idle_cpu_s. Cheap, so call it at
 /// every sign of progress. Does nothing in another process. Local.

@@ -55,8 +55,7 @@ jobs::JobLimits surface_limits(const surface::CoarseOptions& options,
   return {.cpu_s = cpu_s,
           .stall_s = kStall_s,
           .memory_gib = kMemory_gib,
-          .idle_cpu_s = is_netgen ? std::max(kLeastIdle_s, cpu_s / 3.0) : 0.0,
-          .is_alone = is_first};
+          .idle_cpu_s = is_netgen ? std::max(kLeastIdle_s, cpu_s / 3.0) : 0.0};
 }
 
 jobs::JobLimits domain_limits(const surface::CoarseOptions& options,

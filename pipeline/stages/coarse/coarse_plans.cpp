@@ -78,6 +78,13 @@ coarse::ModelFigures known_or_many(const std::optional<coarse::ModelFigures>& fi
                                                  : coarse::ModelFigures{.num_faces = 2500};
 }
 
+// NETGEN and Gmsh have one. Surfaces of parts are NETGEN's.
+bool uses_threads(const surface::CoarseOptions& options, bool is_cut)
+{
+  return !is_cut && options.mesher == surface::Mesher::netgen
+         && options.surface_mesher == surface::SurfaceMesher::remesh;
+}
+
 }  // namespace
 
 std::vector<surface::CoarseOptions> coarse_tries(const config::Case& run_case)
@@ -123,6 +130,7 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case,
                      .planes = is_cut ? planes : cut::CutTree{},
                      .rung = first_rung + static_cast<LocalIndex>(plans.size()),
                      .limits = surface_limits(options, known_or_many(figures), plans.empty())});
+    plans.back().limits.is_alone = plans.size() == 1 && uses_threads(options, is_cut);
   }
   drop_left_out(plans);
   return plans;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/coarse/coarse_stage.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,9 +25,16 @@
 namespace tessera::pipeline {
 namespace {
 
-// Of the time that the first try may take. Most that work have ended by then, at the least after
-// three seconds, and nobody has worked in vain.
-constexpr double kHeadStart = 0.05;
+// Seconds after which other tries begin. Most tries that work have ended by then, and nobody has
+// worked in vain. One that has the cores of all ranks gets a part of its limit, within bounds: the
+// limit may be the user's.
+double head_start_s(const jobs::JobLimits& first)
+{
+  constexpr double kLeast_s = 3.0;
+  constexpr double kMost_s = 60.0;
+  constexpr double kOfLimit = 0.05;
+  return first.is_alone ? std::clamp(kOfLimit * first.cpu_s, kLeast_s, kMost_s) : kLeast_s;
+}
 
 // The model will not get better in another try.
 bool is_final(const jobs::JobEnd& end)
@@ -83,7 +91,7 @@ class CoarseTries {
               RunContext& context)
       : file_(run_case.geometry.file.string()),
         plans_(std::move(plans)),
-        ladder_(plans_.size(), seconds_now, kHeadStart * plans_.front().limits.cpu_s),
+        ladder_(plans_.size(), seconds_now, head_start_s(plans_.front().limits)),
         stage_(stage),
         context_(context)
   {

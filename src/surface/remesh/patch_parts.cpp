@@ -143,6 +143,32 @@ std::set<Triangle> bridges_of(const PatchSurface& surface, const std::vector<Loc
   return bridges;
 }
 
+// Sides that have one triangle only, ascending.
+std::vector<Edge> border_of(const PatchSurface& surface)
+{
+  std::vector<Edge> sides;
+  for (const Triangle& v : surface.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) sides.push_back(mesh::sorted_edge(v[c], v[(c + 1) % 3]));
+  }
+  std::ranges::sort(sides);
+  std::vector<Edge> border;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const bool is_first = i == 0 || sides[i - 1] != sides[i];
+    const bool is_last = i + 1 == sides.size() || sides[i + 1] != sides[i];
+    if (is_first && is_last) border.push_back(sides[i]);
+  }
+  return border;
+}
+
+// Whether others find all of the rim that they share with the part.
+bool keeps_rim(const PatchPart& part, const PatchSurface& edited)
+{
+  if (edited.vertex_xyz.size() < part.rim.size()) return false;
+  const auto end = part.surface.vertex_xyz.begin() + static_cast<std::ptrdiff_t>(part.rim.size());
+  return std::equal(part.surface.vertex_xyz.begin(), end, edited.vertex_xyz.begin())
+         && edited.edges == part.surface.edges && border_of(edited) == border_of(part.surface);
+}
+
 // Whether an edge within the part is one of a curve of others.
 bool crosses_curve(const PatchSurface& whole, const PatchSurface& surface,
                    const std::vector<LocalIndex>& rim)
@@ -159,7 +185,9 @@ std::vector<char> find_takeable(const PatchSurface& whole, const std::vector<Pat
 {
   std::vector<char> is_takeable;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    is_takeable.push_back(edited[i] && !crosses_curve(whole, *edited[i], parts[i].rim) ? 1 : 0);
+    const bool is_sound = edited[i] && keeps_rim(parts[i], *edited[i])
+                          && !crosses_curve(whole, *edited[i], parts[i].rim);
+    is_takeable.push_back(is_sound ? 1 : 0);
   }
   for (bool has_clash = true; has_clash;) {
     has_clash = false;

@@ -31,7 +31,7 @@ struct JoinedPatches {
 ///
 /// Parts know nothing of each other, so two of them may have got the same edge between vertices of
 /// their rims, or the same triangle: these stay as they were. So does one that has got an edge
-/// which is one of a curve elsewhere.
+/// which is one of a curve elsewhere, or has not kept its rim.
 /// @param[in] may_take  Whether the edited part of each may be taken at all.
 /// @param[in] edited  One for each of patch_parts_of(whole): the vertices of the rim first and in
 /// their order, where they were; edges of curves as they were.

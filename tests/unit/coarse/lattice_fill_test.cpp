@@ -12,6 +12,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/threads.hpp"
 #include "tessera/base/vec3.hpp"
 
 #include "support/surfaces.hpp"
@@ -137,6 +138,19 @@ TEST(LatticePoints, LieInsideAndNotNearTheSkin)
     EXPECT_TRUE(distance.is_inside(place(xyz, v), 0.05));
   }
   EXPECT_EQ(xyz, lattice_points(skin, options_of(skin)));
+}
+
+TEST(LatticePoints, AreTheSameForAnyNumberOfThreads)
+{
+  const surface::DomainSkin skin = testing::ball_skin(12);
+  surface::CoarseOptions options;
+  options.max_size = 0.05;
+  const std::vector<double> alone = lattice_points(skin, options);
+  EXPECT_GT(alone.size(), 3U * 2 * 4096) << "some chunks";
+  set_num_threads(3);
+  const std::vector<double> side_by_side = lattice_points(skin, options);
+  set_num_threads(1);
+  EXPECT_EQ(alone, side_by_side);
 }
 
 // A larger edge gives fewer points: spacing grows away from the skin.

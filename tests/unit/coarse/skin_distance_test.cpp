@@ -97,5 +97,22 @@ TEST(SkinDistance, OfABall)
   }
 }
 
+// Points come line by line, as those of a lattice do.
+TEST(InsideFinder, SaysWhatASearchOfEachPointSays)
+{
+  const surface::DomainSkin skin = testing::ball_skin(6);
+  const SkinDistance distance(skin);
+  InsideFinder finder(distance);
+  int num_inside = 0;
+  for (int i = 0; i < 40 * 40 * 40; ++i) {
+    const Vec3 p = 0.06 * Vec3{i / 1600 - 19.5, i / 40 % 40 - 19.5, i % 40 - 19.5};
+    const bool is_inside = distance.is_inside(p, 0.05);
+    ASSERT_EQ(finder.is_inside(p, 0.05), is_inside) << p[0] << ' ' << p[1] << ' ' << p[2];
+    num_inside += is_inside ? 1 : 0;
+  }
+  EXPECT_GT(num_inside, 10'000);
+  EXPECT_LT(num_inside, 40'000);
+}
+
 }  // namespace
 }  // namespace tessera::coarse

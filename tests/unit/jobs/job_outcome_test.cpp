@@ -10,13 +10,14 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/jobs/job_runner.hpp"
+#include "tessera/jobs/this_process.hpp"
 
 #include "support/failing_worker.hpp"
 
@@ -64,10 +65,12 @@ TEST_F(JobOutcomes, AJobThatIsAloneHasAThreadForEachRankOfItsNode)
     return text_of(runner_.run(bytes_of("threads"), limits, {}).result);
   };
   EXPECT_EQ(num_threads_of_job(alone), "1") << "no ranks are known";
-  runner_.set_ranks_of_node({::getpid(), ::getppid()});
+  const std::vector<int> cores = cores_of_this_thread();
+  runner_.set_node(2, cores);
   EXPECT_EQ(num_threads_of_job({}), "1");
-  const unsigned num_cores = std::thread::hardware_concurrency();
-  EXPECT_EQ(num_threads_of_job(alone), num_cores > 1 ? "2" : "1");
+  EXPECT_EQ(num_threads_of_job(alone), cores.size() > 1 ? "2" : "1");
+  runner_.set_node(2, {cores.front()});
+  EXPECT_EQ(num_threads_of_job(alone), "1") << "both ranks have one core";
 }
 
 TEST_F(JobOutcomes, ExceptionsArriveWithKindAndText)

@@ -258,6 +258,41 @@ TEST(Remesh, GivesTheSameBitsAgain)
   EXPECT_EQ(remesh(reference, of_size(0.3)).vertex_xyz, remesh(reference, of_size(0.3)).vertex_xyz);
 }
 
+// A sphere of two patches; the curve between them is its equator.
+PatchSurface two_hemispheres()
+{
+  PatchSurface surface = surface_of(testing::sphere_soup(4));
+  surface.patch_materials.assign(2, {1, 0});
+  std::set<PatchSurface::Edge> equator;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto p = surface.corners(t);
+    surface.triangle_patch[t] = p[0][2] + p[1][2] + p[2][2] > 0.0 ? 1 : 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (p[c][2] != 0.0 || p[(c + 1) % 3][2] != 0.0) continue;
+      const auto [low, high] =
+          std::minmax(surface.triangles[t][c], surface.triangles[t][(c + 1) % 3]);
+      equator.insert({low, high});
+    }
+  }
+  surface.edges.assign(equator.begin(), equator.end());
+  surface.edge_curve.assign(equator.size(), 0);
+  return surface;
+}
+
+TEST(Remesh, OfRoundPatchesIsTheSameForAnyNumberOfThreads)
+{
+  const SurfaceReference reference(two_hemispheres());
+  ASSERT_FALSE(reference.surface().edges.empty());
+  const PatchSurface alone = remesh(reference, of_size(0.06));
+  set_num_threads(4);
+  const PatchSurface side_by_side = remesh(reference, of_size(0.06));
+  set_num_threads(1);
+  EXPECT_EQ(alone.vertex_xyz, side_by_side.vertex_xyz);
+  EXPECT_EQ(alone.triangles, side_by_side.triangles);
+  EXPECT_NO_THROW(validate(alone));
+  EXPECT_GT(worst_quality(alone), 0.5);
+}
+
 // Patches with a thousand squares of the size are edited alone, side by side.
 TEST(Remesh, GivesTheSameBitsForAnyNumberOfThreads)
 {
