@@ -78,7 +78,7 @@ coarse::ModelFigures known_or_many(const std::optional<coarse::ModelFigures>& fi
                                                  : coarse::ModelFigures{.num_faces = 2500};
 }
 
-// NETGEN and Gmsh have one. Surfaces of parts are NETGEN's.
+// NETGEN and Gmsh have one thread. Surfaces of parts are NETGEN's.
 bool uses_threads(const surface::CoarseOptions& options, bool is_cut)
 {
   return !is_cut && options.mesher == surface::Mesher::netgen

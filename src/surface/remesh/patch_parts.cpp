@@ -34,16 +34,22 @@ std::vector<char> vertices_of_rims(const PatchSurface& whole)
   return is_on_rim;
 }
 
-// Sides of triangles of a part that lead from rim to rim, ascending.
-std::vector<Edge> sides_on_rim(const PatchSurface& surface, const std::vector<LocalIndex>& rim)
+// Those of all triangles, ascending; a side of two triangles is there twice.
+std::vector<Edge> sides_of(const PatchSurface& surface)
 {
   std::vector<Edge> sides;
   for (const Triangle& v : surface.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Edge side = mesh::sorted_edge(v[c], v[(c + 1) % 3]);
-      if (at(side[1]) < rim.size()) sides.push_back(side);
-    }
+    for (std::size_t c = 0; c < 3; ++c) sides.push_back(mesh::sorted_edge(v[c], v[(c + 1) % 3]));
   }
+  std::ranges::sort(sides);
+  return sides;
+}
+
+// Sides of a part that lead from rim to rim, ascending.
+std::vector<Edge> sides_on_rim(const PatchSurface& surface, const std::vector<LocalIndex>& rim)
+{
+  std::vector<Edge> sides = sides_of(surface);
+  std::erase_if(sides, [&](const Edge& side) { return at(side[1]) >= rim.size(); });
   sort_unique(sides);
   return sides;
 }
@@ -146,11 +152,7 @@ std::set<Triangle> bridges_of(const PatchSurface& surface, const std::vector<Loc
 // Sides that have one triangle only, ascending.
 std::vector<Edge> border_of(const PatchSurface& surface)
 {
-  std::vector<Edge> sides;
-  for (const Triangle& v : surface.triangles) {
-    for (std::size_t c = 0; c < 3; ++c) sides.push_back(mesh::sorted_edge(v[c], v[(c + 1) % 3]));
-  }
-  std::ranges::sort(sides);
+  const std::vector<Edge> sides = sides_of(surface);
   std::vector<Edge> border;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const bool is_first = i == 0 || sides[i - 1] != sides[i];

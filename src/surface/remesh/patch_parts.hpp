@@ -32,9 +32,9 @@ struct JoinedPatches {
 /// Parts know nothing of each other, so two of them may have got the same edge between vertices of
 /// their rims, or the same triangle: these stay as they were. So does one that has got an edge
 /// which is one of a curve elsewhere, or has not kept its rim.
-/// @param[in] may_take  Whether the edited part of each may be taken at all.
-/// @param[in] edited  One for each of patch_parts_of(whole): the vertices of the rim first and in
-/// their order, where they were; edges of curves as they were.
+/// @param[in] parts  patch_parts_of(whole).
+/// @param[in] edited  What has become of each; nothing if it was not edited. The vertices of the
+/// rim come first and in their order, where they were, and edges of curves are as they were.
 [[nodiscard]] JoinedPatches join_patches(const PatchSurface& whole,
                                          const std::vector<PatchPart>& parts,
                                          const std::vector<std::optional<PatchSurface>>& edited);

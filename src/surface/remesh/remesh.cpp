@@ -96,6 +96,19 @@ class Remesher {
 
   [[nodiscard]] PatchSurface take() const { return editor_.take(); }
 
+  // The area of each patch in squares of the wanted length.
+  [[nodiscard]] std::vector<double> squares_of_patches() const
+  {
+    std::vector<double> squares(at(editor_.reference().surface().num_patches()));
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      if (!surface_.is_triangle(t)) continue;
+      const std::array<Vec3, 3> corners = surface_.corners(t);
+      const double size = editor_.size_at(middle_of(corners));
+      squares[at(surface_.patch(t))] += triangle_area(corners) / (size * size);
+    }
+    return squares;
+  }
+
   // Edges of curves stay as they are.
   void keep_curves() { keeps_curves_ = true; }
 
@@ -323,25 +336,13 @@ std::vector<Box> around(const std::vector<Overlap>& cuts, const PatchSurface& su
   return boxes;
 }
 
-// The area of a surface in squares of the wanted lengths.
-double squares_of(const PatchSurface& surface, const SizeFunction& sizes)
-{
-  double squares = 0.0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const std::array<Vec3, 3> corners = surface.corners(t);
-    const double size = sizes(middle_of(corners));
-    squares += triangle_area(corners) / (size * size);
-  }
-  return squares;
-}
-
-// The parts that are edited by themselves, the heaviest first.
+// Parts that are edited by themselves, the heaviest first.
 std::vector<std::size_t> large_ones_of(const std::vector<PatchPart>& parts,
-                                       const SizeFunction& sizes)
+                                       const std::vector<double>& squares_of_patches)
 {
   std::vector<std::pair<double, std::size_t>> large;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const double squares = squares_of(parts[i].surface, sizes);
+    const double squares = squares_of_patches[at(parts[i].surface.triangle_patch.front())];
     if (squares >= kLargePatch) large.emplace_back(-squares, i);
   }
   std::ranges::sort(large);
@@ -372,10 +373,13 @@ PatchSurface remesh_unguarded(const SurfaceReference& reference, const PatchSurf
 {
   Remesher remesher(reference, start, sizes, model, {});
   remesher.divide_curves_for(rims);
+  const std::vector<double> squares = remesher.squares_of_patches();
+  if (std::ranges::none_of(squares, [](double of_patch) { return of_patch >= kLargePatch; })) {
+    return remesher.run();
+  }
   const PatchSurface divided = remesher.take();
   const std::vector<PatchPart> parts = patch_parts_of(divided);
-  const std::vector<std::size_t> large = large_ones_of(parts, sizes);
-  if (large.empty()) return remesher.run();
+  const std::vector<std::size_t> large = large_ones_of(parts, squares);
   const auto [surface, is_edited] =
       join_patches(divided, parts, edited_alone(reference, parts, large, sizes));
   Remesher beside(reference, surface, sizes, model, {});
