@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/index_lists.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -29,35 +31,52 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t size) : parent_(size)
   {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    std::iota(parent_.begin(), parent_.end(), 0);
   }
-  std::size_t root(std::size_t node)
+  LocalIndex root(LocalIndex node)
   {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    while (parent_[at(node)] != node) {
+      node = parent_[at(node)] = parent_[at(parent_[at(node)])];
+    }
     return node;
   }
-  void join(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
+  void join(LocalIndex a, LocalIndex b) { parent_[at(root(a))] = root(b); }
 
  private:
-  std::vector<std::size_t> parent_;
+  std::vector<LocalIndex> parent_;
 };
 
 // A set of connected corners (of tets or of skin triangles) at one vertex in one subdomain.
 struct Fan {
-  LocalIndex vertex;
   LocalIndex subdomain;
-  std::size_t root;
+  LocalIndex root;
   friend auto operator<=>(const Fan&, const Fan&) = default;
 };
 
-void require_one_fan(std::vector<Fan>& fans, const std::string& what)
+// Cells, each with its vertices and the subdomain that it is of.
+struct Cells {
+  std::span<const LocalIndex> vertices;  // Shape (num_cells, width).
+  LocalIndex width;
+  std::span<const LocalIndex> subdomain;
+};
+
+// Corners of one subdomain that meet in a vertex must be one set.
+void require_one_fan(const Cells& cells, LocalIndex num_vertices, DisjointSets& corners,
+                     const std::string& what)
 {
-  std::sort(fans.begin(), fans.end());
-  fans.erase(std::unique(fans.begin(), fans.end()), fans.end());
-  for (std::size_t i = 1; i < fans.size(); ++i) {
-    const bool is_second =
-        fans[i].vertex == fans[i - 1].vertex && fans[i].subdomain == fans[i - 1].subdomain;
-    if (is_second) fail_at(fans[i].subdomain, fans[i].vertex, what);
+  const IndexLists cells_at = rows_by_key(cells.vertices, num_vertices, at(cells.width));
+  std::vector<Fan> fans;
+  for (LocalIndex v = 0; v < num_vertices; ++v) {
+    fans.clear();
+    for (const LocalIndex cell : cells_at[v]) {
+      LocalIndex corner = cells.width * cell;
+      while (cells.vertices[at(corner)] != v) ++corner;
+      fans.push_back({cells.subdomain[at(cell)], corners.root(corner)});
+    }
+    std::ranges::sort(fans);
+    fans.erase(std::unique(fans.begin(), fans.end()), fans.end());
+    const auto second = std::ranges::adjacent_find(fans, {}, &Fan::subdomain);
+    if (second != fans.end()) fail_at(second->subdomain, v, what);
   }
 }
 
@@ -77,42 +96,39 @@ class Validator {
     for (const mesh::TriangleTets& triangle : triangles_) {
       if (triangle.tets[1] == kNoIndex || subdomain(triangle, 0) != subdomain(triangle, 1))
         continue;
-      const auto a = static_cast<std::size_t>(triangle.tets[0]);
-      const auto b = static_cast<std::size_t>(triangle.tets[1]);
+      const auto& [a, b] = triangle.tets;
       tets.join(a, b);
       for (const LocalIndex v : triangle.vertices) corners.join(corner(a, v), corner(b, v));
     }
-    std::vector<std::size_t> known(num_subdomains(), kUnknown);
-    std::vector<Fan> fans;
-    for (std::size_t t = 0; t < num_tets(); ++t) {
-      const LocalIndex s = decomposition_.tet_subdomain[t];
-      const std::size_t root = tets.root(t);
-      std::size_t& first = known[static_cast<std::size_t>(s)];
-      if (first == kUnknown) first = root;
-      if (first != root) fail_at(s, mesh_.tet_vertices[4 * t], "it is not face-connected");
-      for (std::size_t c = 4 * t; c < 4 * t + 4; ++c) {
-        fans.push_back({mesh_.tet_vertices[c], s, corners.root(c)});
+    std::vector<LocalIndex> known(num_subdomains(), kNoIndex);
+    for (LocalIndex t = 0; at(t) < num_tets(); ++t) {
+      const LocalIndex s = decomposition_.tet_subdomain[at(t)];
+      LocalIndex& first = known[at(s)];
+      if (first == kNoIndex) first = tets.root(t);
+      if (first != tets.root(t)) {
+        fail_at(s, mesh_.tet_vertices[4 * at(t)], "it is not face-connected");
       }
     }
-    require_one_fan(fans, "its tets here are not face-connected");
+    require_one_fan({mesh_.tet_vertices, 4, decomposition_.tet_subdomain}, mesh_.num_vertices(),
+                    corners, "its tets here are not face-connected");
   }
 
   void check_skins() const
   {
-    const std::vector<SkinTriangle> skin = collect_skin();
+    const Skins skins = collect_skins();
     std::vector<SkinEdge> edges;
-    for (std::size_t i = 0; i < skin.size(); ++i) {
-      const auto& [a, b, c] = skin[i].vertices;
-      const LocalIndex s = skin[i].subdomain;
-      edges.insert(edges.end(), {{s, {a, b}, {3 * i, 3 * i + 1}},
-                                 {s, {a, c}, {3 * i, 3 * i + 2}},
-                                 {s, {b, c}, {3 * i + 1, 3 * i + 2}}});
+    for (LocalIndex i = 0; at(i) < skins.subdomain.size(); ++i) {
+      const LocalIndex* v = &skins.vertices[3 * at(i)];
+      const LocalIndex s = skins.subdomain[at(i)];
+      edges.insert(edges.end(), {{s, {v[0], v[1]}, {3 * i, 3 * i + 1}},
+                                 {s, {v[0], v[2]}, {3 * i, 3 * i + 2}},
+                                 {s, {v[1], v[2]}, {3 * i + 1, 3 * i + 2}}});
     }
     std::sort(edges.begin(), edges.end(), [](const SkinEdge& x, const SkinEdge& y) {
       return x.subdomain != y.subdomain ? x.subdomain < y.subdomain : x.ends < y.ends;
     });
-    DisjointSets corners(3 * skin.size());
-    DisjointSets surfaces(skin.size());
+    DisjointSets corners(skins.vertices.size());
+    DisjointSets surfaces(skins.subdomain.size());
     for (std::size_t i = 0; i < edges.size(); i += 2) {
       const SkinEdge& edge = edges[i];
       if (i + 1 == edges.size() || !edge.is_same(edges[i + 1])) fail_edge(edge, "an odd number of");
@@ -122,12 +138,9 @@ class Validator {
       }
       surfaces.join(edge.corners[0] / 3, edges[i + 1].corners[0] / 3);
     }
-    check_surfaces(skin, surfaces);
-    std::vector<Fan> fans;
-    for (std::size_t c = 0; c < 3 * skin.size(); ++c) {
-      fans.push_back({skin[c / 3].vertices[c % 3], skin[c / 3].subdomain, corners.root(c)});
-    }
-    require_one_fan(fans, "its skin touches itself");
+    check_surfaces(skins, surfaces);
+    require_one_fan({skins.vertices, 3, skins.subdomain}, mesh_.num_vertices(), corners,
+                    "its skin touches itself");
   }
 
   void check_sizes() const
@@ -186,20 +199,20 @@ class Validator {
   }
 
  private:
-  struct SkinTriangle {
-    LocalIndex subdomain;
-    std::array<LocalIndex, 3> vertices;
+  // The triangles of all skins.
+  struct Skins {
+    std::vector<LocalIndex> vertices{};   // Shape (num_triangles, 3): each ascends.
+    std::vector<LocalIndex> subdomain{};  // Shape (num_triangles).
   };
   struct SkinEdge {
     LocalIndex subdomain;
     std::array<LocalIndex, 2> ends;
-    std::array<std::size_t, 2> corners;  // of a skin triangle, at either end
+    std::array<LocalIndex, 2> corners;  // of a skin triangle, at either end
     [[nodiscard]] bool is_same(const SkinEdge& other) const
     {
       return subdomain == other.subdomain && ends == other.ends;
     }
   };
-  static constexpr std::size_t kUnknown = static_cast<std::size_t>(-1);
 
   [[nodiscard]] std::size_t num_tets() const { return mesh_.tet_material.size(); }
   [[nodiscard]] std::size_t num_subdomains() const
@@ -210,33 +223,36 @@ class Validator {
   {
     return decomposition_.tet_subdomain[static_cast<std::size_t>(triangle.tets[side])];
   }
-  [[nodiscard]] std::size_t corner(std::size_t tet, LocalIndex vertex) const
+  [[nodiscard]] LocalIndex corner(LocalIndex tet, LocalIndex vertex) const
   {
-    std::size_t at = 4 * tet;
-    while (mesh_.tet_vertices[at] != vertex) ++at;
-    return at;
+    LocalIndex corner = 4 * tet;
+    while (mesh_.tet_vertices[at(corner)] != vertex) ++corner;
+    return corner;
   }
 
-  [[nodiscard]] std::vector<SkinTriangle> collect_skin() const
+  [[nodiscard]] Skins collect_skins() const
   {
-    std::vector<SkinTriangle> skin;
+    Skins skins;
     for (const mesh::TriangleTets& triangle : triangles_) {
       const bool is_outer = triangle.tets[1] == kNoIndex;
       if (!is_outer && subdomain(triangle, 0) == subdomain(triangle, 1)) continue;
-      skin.push_back({subdomain(triangle, 0), triangle.vertices});
-      if (!is_outer) skin.push_back({subdomain(triangle, 1), triangle.vertices});
+      for (std::size_t side = 0; side < (is_outer ? 1 : 2); ++side) {
+        skins.subdomain.push_back(subdomain(triangle, side));
+        skins.vertices.insert(skins.vertices.end(), triangle.vertices.begin(),
+                              triangle.vertices.end());
+      }
     }
-    return skin;
+    return skins;
   }
 
-  void check_surfaces(const std::vector<SkinTriangle>& skin, DisjointSets& surfaces) const
+  void check_surfaces(const Skins& skins, DisjointSets& surfaces) const
   {
-    std::vector<std::size_t> known(num_subdomains(), kUnknown);
-    for (std::size_t i = 0; i < skin.size(); ++i) {
-      std::size_t& first = known[static_cast<std::size_t>(skin[i].subdomain)];
-      if (first == kUnknown) first = surfaces.root(i);
-      if (first != surfaces.root(i)) {
-        fail_at(skin[i].subdomain, skin[i].vertices[0], "its skin is more than one surface");
+    std::vector<LocalIndex> known(num_subdomains(), kNoIndex);
+    for (LocalIndex i = 0; at(i) < skins.subdomain.size(); ++i) {
+      const LocalIndex s = skins.subdomain[at(i)];
+      if (known[at(s)] == kNoIndex) known[at(s)] = surfaces.root(i);
+      if (known[at(s)] != surfaces.root(i)) {
+        fail_at(s, skins.vertices[3 * at(i)], "its skin is more than one surface");
       }
     }
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <numeric>
 
 #include "tessera/base/morton_order.hpp"
 #include "tessera/base/vec3.hpp"
@@ -16,14 +15,22 @@ namespace {
 constexpr int kBitsARound = 3;
 constexpr int kRounds = 7;
 
-// Rows by position, equal ones by row; of those only the first.
-std::vector<LocalIndex> different_points(std::span<const double> xyz)
+struct PlacedRow {
+  Vec3 place{};
+  LocalIndex row = 0;
+
+  friend auto operator<=>(const PlacedRow&, const PlacedRow&) = default;
+};
+
+// By position; of equal ones only the lowest row.
+std::vector<PlacedRow> different_points(std::span<const double> xyz)
 {
-  std::vector<LocalIndex> rows(xyz.size() / 3);
-  std::iota(rows.begin(), rows.end(), 0);
-  const auto position = [xyz](LocalIndex row) { return point_at(xyz, row); };
-  std::ranges::stable_sort(rows, {}, position);
-  const auto are_equal = [&](LocalIndex a, LocalIndex b) { return position(a) == position(b); };
+  std::vector<PlacedRow> rows(xyz.size() / 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = {point_at(xyz, i), static_cast<LocalIndex>(i)};
+  }
+  std::ranges::sort(rows);
+  const auto are_equal = [](const PlacedRow& a, const PlacedRow& b) { return a.place == b.place; };
   rows.erase(std::unique(rows.begin(), rows.end(), are_equal), rows.end());
   return rows;
 }
@@ -51,23 +58,24 @@ int round_of(const Vec3& p)
 
 }  // namespace
 
-std::vector<LocalIndex> insertion_order(std::span<const double> xyz)
+std::vector<LocalIndex> along_curve(std::span<const double> xyz)
 {
-  const std::vector<LocalIndex> rows = different_points(xyz);
+  const std::vector<PlacedRow> rows = different_points(xyz);
   std::vector<double> positions;
   positions.reserve(3 * rows.size());
-  for (const LocalIndex row : rows) {
-    const Vec3 p = point_at(xyz, row);
-    positions.insert(positions.end(), p.begin(), p.end());
+  for (const auto& [place, row] : rows) {
+    positions.insert(positions.end(), place.begin(), place.end());
   }
   std::vector<LocalIndex> order = morton_order(positions);
-  std::vector<std::uint8_t> round(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    round[i] = static_cast<std::uint8_t>(round_of(point_at(std::span<const double>(positions), i)));
-  }
-  std::ranges::stable_sort(order, {}, [&](LocalIndex i) { return round[at(i)]; });
-  for (LocalIndex& i : order) i = rows[at(i)];
+  for (LocalIndex& i : order) i = rows[at(i)].row;
   return order;
+}
+
+void sort_by_round(std::span<const Vec3> points, std::vector<LocalIndex>& rows)
+{
+  std::vector<std::uint8_t> round(points.size());
+  for (const LocalIndex i : rows) round[at(i)] = static_cast<std::uint8_t>(round_of(points[at(i)]));
+  std::ranges::stable_sort(rows, {}, [&](LocalIndex i) { return round[at(i)]; });
 }
 
 }  // namespace tessera::delaunay

@@ -208,13 +208,14 @@ void Triangulation::fill_cavity(LocalIndex vertex)
     const Corner outside = across(corner);
     const LocalIndex tet = add_tet(made);
     // The old tet still knows what lies across: that is how sides are found.
+    std::fill_n(&tet_neighbours_[4 * at(tet)], 4, kNoIndex);
     link(4 * tet + (corner & 3), outside);
     tet_neighbours_[at(corner)] = outside;
   }
   for (const Corner face : cavity_boundary_) {
     const LocalIndex tet = tet_of(across(across(face)));
     for (LocalIndex side = 0; side < 4; ++side) {
-      if (side != (face & 3)) tet_neighbours_[at(4 * tet + side)] = across_side(face, side);
+      if (across(4 * tet + side) == kNoIndex) link(4 * tet + side, across_side(face, side));
     }
     if (!is_ghost(tet)) last_ = tet;
   }

@@ -13,6 +13,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/morton_order.hpp"
 #include "tessera/base/rows.hpp"
+#include "tessera/mesh/tet_neighbours.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "optimize/input_check.hpp"
@@ -196,7 +197,7 @@ WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels, bool
   mesh.first_not_positive = find_not_positive(mesh, order);
   if (!may_be_tangled) require_positive(mesh);
   if (input.tet_neighbours.empty()) {
-    mesh.tet_neighbours = find_neighbours(mesh.tet_vertices, mesh.num_vertices(), order);
+    mesh.tet_neighbours = mesh::find_tet_neighbours(mesh.tet_vertices, mesh.num_vertices(), order);
   } else {
     require_neighbours(input.tet_vertices, input.tet_neighbours);
     mesh.tet_neighbours = reordered_neighbours(input.tet_neighbours, order);

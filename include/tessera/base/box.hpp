@@ -57,9 +57,14 @@ struct Box {
   /// @brief 0 if it holds the point. Rounding never makes it more than that of a point it holds.
   [[nodiscard]] constexpr double squared_distance(const Vec3& point) const noexcept
   {
+    return squared_gap({point, point});
+  }
+  /// @brief 0 if they touch. @pre Neither is empty.
+  [[nodiscard]] constexpr double squared_gap(const Box& other) const noexcept
+  {
     double sum = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
-      const double outside = std::max({low[d] - point[d], point[d] - high[d], 0.0});
+      const double outside = std::max({low[d] - other.high[d], other.low[d] - high[d], 0.0});
       sum += outside * outside;
     }
     return sum;

@@ -26,7 +26,7 @@ struct Tetrahedralization {
 /// tet. Where several such meshes exist, as on a grid, positions decide: insphere_untied().
 ///
 /// So the tets, and the order in which they come, depend on the set of points and on nothing else:
-/// not on the order of the rows. All tests are exact, so no tet is flat, and every point inside and
+/// not on the order of the rows, nor on what is known of a lattice. All tests are exact, so no tet is flat, and every point inside and
 /// on the hull is right, whatever lies on one plane or sphere.
 ///
 /// Points are put in along a space-filling curve, a few of all first: a walk finds where, and the
@@ -34,9 +34,13 @@ struct Tetrahedralization {
 /// has tets to a vertex at infinity, so it needs no box around it.
 /// @param[in] xyz Shape (num_points, 3). Of points at the same place the first row stands for all;
 /// the others are of no tet.
+/// @param[in] lattice_side Shape (num_points), or empty: the side of the cells of a body-centred
+/// lattice of which the point is a corner or a middle, with corners at multiples of the side; 0 if
+/// of none. Tets deep inside of such lattices are written down, which takes a tenth of the time.
 /// @throws MeshError if a coordinate is not finite or beyond what orient3d() is exact for, if all
 /// points lie on one plane, or if there would be 2^29 tets or more.
 /// @note Local. Random points: about 4 us each.
-[[nodiscard]] Tetrahedralization tetrahedralize(std::span<const double> xyz);
+[[nodiscard]] Tetrahedralization tetrahedralize(std::span<const double> xyz,
+                                                std::span<const double> lattice_side = {});
 
 }  // namespace tessera::delaunay

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "tessera/base/search_tree.hpp"
@@ -29,11 +30,16 @@ class SizeFunction {
   [[nodiscard]] double largest() const { return largest_; }
   [[nodiscard]] double operator()(const Vec3& place) const;
 
+  /// @brief Whether less than `limit` is wanted at any of these places. Faster than to ask for the
+  /// sizes, if the places lie together and most answers are no.
+  [[nodiscard]] bool is_below(double limit, std::span<const Vec3> places) const;
+
   /// @brief Gives it more sources.
   void limit(const std::vector<SizeSource>& sources);
 
  private:
   void build();
+  [[nodiscard]] double size_beside(const SizeSource& source, const Vec3& place) const;
 
   double largest_;
   double growth_;

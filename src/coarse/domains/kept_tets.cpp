@@ -27,11 +27,12 @@ struct EdgeUse {
 
 }  // namespace
 
-KeptTets::KeptTets(const surface::DomainSkin& skin, std::span<const double> xyz)
+KeptTets::KeptTets(const surface::DomainSkin& skin, std::span<const double> xyz,
+                   std::span<const double> lattice_side)
     : skin_(skin),
       xyz_(xyz),
       inner_patch_(*std::ranges::max_element(skin.triangle_patch) + 1),
-      tets_(delaunay::tetrahedralize(xyz)),
+      tets_(delaunay::tetrahedralize(xyz, lattice_side)),
       cut_(delaunay::cut_by_surface(xyz, tets_, skin.triangle_vertices,
                                     static_cast<LocalIndex>(skin.vertex.size())))
 {

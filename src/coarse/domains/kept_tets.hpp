@@ -20,9 +20,11 @@ namespace tessera::coarse {
 class KeptTets {
  public:
   /// @param[in] xyz  Vertices of the skin, then the points inside of it.
-  /// @pre Both outlive this.
+  /// @param[in] lattice_side  As tetrahedralize().
+  /// @pre Skin and points outlive this.
   /// @throws MeshError as tetrahedralize(), and if the skin cuts itself.
-  KeptTets(const surface::DomainSkin& skin, std::span<const double> xyz);
+  KeptTets(const surface::DomainSkin& skin, std::span<const double> xyz,
+           std::span<const double> lattice_side);
 
   /// @brief Takes out flat tets with those beside them. No step of an optimiser helps if two faces
   /// of a flat one are of the skin. What fills the space of its neighbours too has other edges

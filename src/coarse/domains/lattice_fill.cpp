@@ -124,10 +124,12 @@ std::optional<surface::DomainTets> fill_with_lattice(const surface::DomainSkin& 
                                                      const HoleFiller& filler)
 {
   std::vector<double> xyz = skin.vertex_xyz;
-  const std::vector<double> inside = lattice_points(skin, options);
-  xyz.insert(xyz.end(), inside.begin(), inside.end());
+  std::vector<double> lattice_side(skin.vertex.size(), 0.0);
+  const InsidePoints inside = lattice_points(skin, options);
+  xyz.insert(xyz.end(), inside.xyz.begin(), inside.xyz.end());
+  lattice_side.insert(lattice_side.end(), inside.side.begin(), inside.side.end());
   try {
-    KeptTets kept(skin, xyz);
+    KeptTets kept(skin, xyz, lattice_side);
     kept.take_out_flat();
     return filled(skin, xyz, kept, filler);
   } catch (

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <span>
 
 #include "tessera/base/box.hpp"
@@ -52,8 +51,8 @@ std::vector<char> find_inside(std::span<const LatticePoint> points, const SkinDi
   for_each_chunk_in_threads(points.size(), [&](std::size_t first, std::size_t last) {
     InsideFinder finder(distance);
     for (std::size_t i = first; i < last; ++i) {
-      const auto& [xyz, spacing] = points[i];
-      is_inside[i] = finder.is_inside(xyz, kLeastDistance * spacing) ? 1 : 0;
+      const auto& [xyz, side] = points[i];
+      is_inside[i] = finder.is_inside(xyz, kLeastDistance * rms_edge(side)) ? 1 : 0;
     }
   });
   return is_inside;
@@ -61,8 +60,7 @@ std::vector<char> find_inside(std::span<const LatticePoint> points, const SkinDi
 
 }  // namespace
 
-std::vector<double> lattice_points(const surface::DomainSkin& skin,
-                                   const surface::CoarseOptions& options)
+InsidePoints lattice_points(const surface::DomainSkin& skin, const surface::CoarseOptions& options)
 {
   surface::CoarseOptions inside = options;
   inside.max_size = kSpacingOfSize * std::min(options.max_size, skin.max_size);
@@ -70,18 +68,21 @@ std::vector<double> lattice_points(const surface::DomainSkin& skin,
   const SkinDistance distance(skin);
   surface::SizeFunction size(inside);
   size.limit(sizes_of(distance.triangles()));
-  std::vector<double> xyz;
-  const LatticeSpace space{.wanted_edge = std::cref(size),
-                           .is_needed = [&](const Vec3& place, double within) {
-                             return !distance.is_outside(place, within);
-                           }};
+  const LatticeSpace space{
+      .is_wanted_below = [&](double edge,
+                             std::span<const Vec3> places) { return size.is_below(edge, places); },
+      .is_needed = [&](const Vec3& place,
+                       double within) { return !distance.is_outside(place, within); }};
   const Box box = bounding_box(skin.vertex_xyz);
   const std::vector<LatticePoint> points = octree_lattice(box, cell_side(inside.max_size), space);
   const std::vector<char> is_inside = find_inside(points, distance);
+  InsidePoints result;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_inside[i] != 0) xyz.insert(xyz.end(), points[i].xyz.begin(), points[i].xyz.end());
+    if (is_inside[i] == 0) continue;
+    result.xyz.insert(result.xyz.end(), points[i].xyz.begin(), points[i].xyz.end());
+    result.side.push_back(points[i].side);
   }
-  return xyz;
+  return result;
 }
 
 }  // namespace tessera::coarse

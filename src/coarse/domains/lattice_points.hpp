@@ -8,10 +8,15 @@
 
 namespace tessera::coarse {
 
+/// @brief Points of a lattice.
+struct InsidePoints {
+  std::vector<double> xyz{};   ///< Shape (num_points, 3).
+  std::vector<double> side{};  ///< Shape (num_points): LatticePoint::side.
+};
+
 /// @brief Points inside of a skin, on a lattice whose spacing is that of the skin's edges beside it
 /// and grows from there, up to the largest edge. Local; a pure function.
-/// @return Shape (num_points, 3).
-[[nodiscard]] std::vector<double> lattice_points(const surface::DomainSkin& skin,
-                                                 const surface::CoarseOptions& options);
+[[nodiscard]] InsidePoints lattice_points(const surface::DomainSkin& skin,
+                                          const surface::CoarseOptions& options);
 
 }  // namespace tessera::coarse

@@ -2,6 +2,7 @@
 #include "coarse/domains/octree_lattice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -163,17 +164,16 @@ class Octree {
         side
         * Vec3{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
                static_cast<double>(cell[2]) + 0.5};
-    if (!space_.is_needed(center, 0.5 * std::numbers::sqrt3 * side)) return false;
-    bool is_too_coarse = false;
+    std::array<Vec3, 8> middles{};
+    std::size_t num_middles = 0;
     for_each_cell(child_of(cell, 0), child_of(cell, 1), [&](const Cell& child) {
-      if (is_too_coarse) return;
-      Vec3 middle{};
+      Vec3& middle = middles[num_middles++];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         middle[axis] = 0.5 * side * (static_cast<double>(child[axis]) + 0.5);
       }
-      is_too_coarse = side > kMostTooLong * cell_side(space_.wanted_edge(middle));
     });
-    return is_too_coarse;
+    return space_.is_wanted_below(rms_edge(side) / kMostTooLong, middles)
+           && space_.is_needed(center, 0.5 * std::numbers::sqrt3 * side);
   }
 
   [[nodiscard]] bool is_halved(const Cell& cell, std::size_t level) const
@@ -219,7 +219,7 @@ class Octree {
       const double side = side_at(halved_.size() - places[i].levels_above_last);
       points.push_back({{unit * static_cast<double>(x), unit * static_cast<double>(y),
                          unit * static_cast<double>(z)},
-                        side / cell_side(1.0)});
+                        side});
     }
     return points;
   }
@@ -233,6 +233,8 @@ class Octree {
 }  // namespace
 
 double cell_side(double rms_edge) { return rms_edge * std::sqrt(6.0 / 5.0); }
+
+double rms_edge(double cell_side) { return cell_side / std::sqrt(6.0 / 5.0); }
 
 std::vector<LatticePoint> octree_lattice(const Box& box, double unit, const LatticeSpace& space)
 {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "tessera/base/box.hpp"
@@ -9,17 +10,17 @@
 
 namespace tessera::coarse {
 
-/// @brief A point of a lattice, and how far apart its neighbours are.
+/// @brief A corner or the middle of a cell.
 struct LatticePoint {
   Vec3 xyz{};
-  double spacing = 0.0;  ///< Root mean square of the edges between such points.
+  double side = 0.0;  ///< Of the smallest cell that it is of.
 };
 
 /// @brief What octree_lattice() is told of a space. Pure functions, which are asked in several
 /// threads at once.
 struct LatticeSpace {
-  /// The edge length that is wanted at a place, > 0.
-  std::function<double(const Vec3& place)> wanted_edge;
+  /// Whether edges shorter than this are wanted at any of these places, which lie together.
+  std::function<bool(double edge, std::span<const Vec3> places)> is_wanted_below;
   /// Whether any point within a distance of a place is. What is not may have points all the same.
   std::function<bool(const Vec3& place, double distance)> is_needed;
 };
@@ -27,6 +28,9 @@ struct LatticeSpace {
 /// @brief The side of the cubes of a body-centred lattice whose edges have this root mean square: a
 /// tet has two edges of one side and four of half a cube's diagonal.
 [[nodiscard]] double cell_side(double rms_edge);
+
+/// @brief The root mean square of the edges between the points of cells of this side.
+[[nodiscard]] double rms_edge(double cell_side);
 
 /// @brief Corners and middles of the cells of an octree: in cells of one size a body-centred
 /// lattice, whose Delaunay tets are all alike. Local; a pure function.

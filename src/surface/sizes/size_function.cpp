@@ -61,6 +61,11 @@ void SizeFunction::build()
   }
 }
 
+double SizeFunction::size_beside(const SizeSource& source, const Vec3& place) const
+{
+  return source.size + growth_ * norm(model::nearest_point_of(source.corners, place) - place);
+}
+
 double SizeFunction::operator()(const Vec3& place) const
 {
   double size = largest_;
@@ -73,10 +78,29 @@ double SizeFunction::operator()(const Vec3& place) const
       [&](LocalIndex row) {
         const SizeSource& source = sources_[at(row)];
         if (source.size >= size) return;
-        const double apart = norm(model::nearest_point_of(source.corners, place) - place);
-        size = std::min(size, source.size + growth_ * apart);
+        size = std::min(size, size_beside(source, place));
       });
   return size;
+}
+
+bool SizeFunction::is_below(double limit, std::span<const Vec3> places) const
+{
+  if (largest_ < limit) return true;
+  const Box around = bounding_box(places);
+  bool is_found = false;
+  tree_.search(
+      [&](LocalIndex node) {
+        const Box& box = tree_.nodes()[at(node)].box;
+        return least_[at(node)] + growth_ * std::sqrt(box.squared_gap(around));
+      },
+      [&](double least) { return !is_found && least < limit; },
+      [&](LocalIndex row) {
+        const SizeSource& source = sources_[at(row)];
+        if (source.size >= limit) return;
+        const auto is_short = [&](const Vec3& place) { return size_beside(source, place) < limit; };
+        is_found = is_found || std::ranges::any_of(places, is_short);
+      });
+  return is_found;
 }
 
 }  // namespace tessera::surface

@@ -131,13 +131,13 @@ surface::DomainSkin one_tet()
 TEST(LatticePoints, LieInsideAndNotNearTheSkin)
 {
   const surface::DomainSkin skin = testing::l_shape_skin(8, 0.25);
-  const std::vector<double> xyz = lattice_points(skin, options_of(skin));
+  const std::vector<double> xyz = lattice_points(skin, options_of(skin)).xyz;
   ASSERT_GT(xyz.size(), 3 * 50U);
   const SkinDistance distance(skin);
   for (LocalIndex v = 0; v < static_cast<LocalIndex>(xyz.size() / 3); ++v) {
     EXPECT_TRUE(distance.is_inside(place(xyz, v), 0.05));
   }
-  EXPECT_EQ(xyz, lattice_points(skin, options_of(skin)));
+  EXPECT_EQ(xyz, lattice_points(skin, options_of(skin)).xyz);
 }
 
 TEST(LatticePoints, AreTheSameForAnyNumberOfThreads)
@@ -145,10 +145,10 @@ TEST(LatticePoints, AreTheSameForAnyNumberOfThreads)
   const surface::DomainSkin skin = testing::ball_skin(12);
   surface::CoarseOptions options;
   options.max_size = 0.05;
-  const std::vector<double> alone = lattice_points(skin, options);
+  const std::vector<double> alone = lattice_points(skin, options).xyz;
   EXPECT_GT(alone.size(), 3U * 2 * 4096) << "some chunks";
   set_num_threads(3);
-  const std::vector<double> side_by_side = lattice_points(skin, options);
+  const std::vector<double> side_by_side = lattice_points(skin, options).xyz;
   set_num_threads(1);
   EXPECT_EQ(alone, side_by_side);
 }
@@ -157,9 +157,9 @@ TEST(LatticePoints, AreTheSameForAnyNumberOfThreads)
 TEST(LatticePoints, GrowUpToTheLargestEdge)
 {
   surface::DomainSkin skin = testing::cube_skin(16, 0.25);
-  const auto num_fine = lattice_points(skin, options_of(skin)).size();
+  const auto num_fine = lattice_points(skin, options_of(skin)).side.size();
   skin.max_size = 2.0;
-  const auto num_coarse = lattice_points(skin, options_of(skin)).size();
+  const auto num_coarse = lattice_points(skin, options_of(skin)).side.size();
   EXPECT_LT(2 * num_coarse, num_fine);
   EXPECT_GT(num_coarse, 0U);
 }
@@ -167,7 +167,7 @@ TEST(LatticePoints, GrowUpToTheLargestEdge)
 std::vector<double> all_points(const surface::DomainSkin& skin)
 {
   std::vector<double> xyz = skin.vertex_xyz;
-  const std::vector<double> inside = lattice_points(skin, options_of(skin));
+  const std::vector<double> inside = lattice_points(skin, options_of(skin)).xyz;
   xyz.insert(xyz.end(), inside.begin(), inside.end());
   return xyz;
 }
@@ -204,7 +204,7 @@ TEST(KeptTets, HolesHaveWhatTheyLeave)
   for (const surface::DomainSkin& skin :
        {testing::cube_skin(4, 0.5), testing::l_shape_skin(6, 1.0 / 3.0), testing::ball_skin(6)}) {
     const std::vector<double> xyz = all_points(skin);
-    KeptTets kept(skin, xyz);
+    KeptTets kept(skin, xyz, {});
     expect_holes_have_the_rest(skin, xyz, kept);
     kept.take_out_flat();
     expect_holes_have_the_rest(skin, xyz, kept);
@@ -234,7 +234,7 @@ TEST(KeptTets, PointsInsideTellTheSideWhereNoTriangleDoes)
   surface::DomainSkin skin = with_other_diagonals(testing::cube_skin(6, 1.0));
   skin.max_size = 0.7;  // Most tets lie deeper than the skin's.
   const std::vector<double> xyz = all_points(skin);
-  KeptTets kept(skin, xyz);
+  KeptTets kept(skin, xyz, {});
   expect_holes_have_the_rest(skin, xyz, kept);
   double volume = 0.0;
   const std::vector<LocalIndex> tets = kept.tet_vertices();
@@ -248,7 +248,7 @@ TEST(KeptTets, TrianglesInsideHaveAPatchOfTheirOwn)
 {
   const surface::DomainSkin skin = testing::cube_skin(4, 0.5);  // Patches 0 to 5.
   const std::vector<double> xyz = all_points(skin);
-  KeptTets kept(skin, xyz);
+  KeptTets kept(skin, xyz, {});
   kept.take_out_around(std::array<LocalIndex, 1>{0});
   const std::vector<surface::DomainSkin> holes = kept.holes();
   ASSERT_FALSE(holes.empty());

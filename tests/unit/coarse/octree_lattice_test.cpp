@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,9 +16,12 @@
 namespace tessera::coarse {
 namespace {
 
-LatticeSpace space_with(std::function<double(const Vec3&)> wanted_edge)
+LatticeSpace space_with(const std::function<double(const Vec3&)>& wanted_edge)
 {
-  return {std::move(wanted_edge), [](const Vec3& /*place*/, double /*distance*/) { return true; }};
+  const auto is_wanted_below = [wanted_edge](double edge, std::span<const Vec3> places) {
+    return std::ranges::any_of(places, [&](const Vec3& p) { return wanted_edge(p) < edge; });
+  };
+  return {is_wanted_below, [](const Vec3& /*place*/, double /*distance*/) { return true; }};
 }
 
 std::vector<LatticePoint> lattice_of_one_size(const Box& box, double unit, double edge)
@@ -69,7 +72,7 @@ TEST(OctreeLattice, OfOneSizeIsBodyCentred)
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3& p = points[i].xyz;
     for (const double c : p) EXPECT_EQ(2.0 * c, std::round(2.0 * c));
-    EXPECT_NEAR(points[i].spacing, edge, 1e-12);
+    EXPECT_NEAR(rms_edge(points[i].side), edge, 1e-12);
     if (!is_deep_in(box, p, 1.0)) continue;
     EXPECT_DOUBLE_EQ(distance_to_nearest(points, i), 0.5 * std::sqrt(3.0));
     const auto num_near = std::ranges::count_if(points, [&](const LatticePoint& other) {
@@ -136,13 +139,14 @@ TEST(OctreeLattice, SpacingFollowsWhatIsWanted)
   double finest = 1e9;
   double coarsest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    finest = std::min(finest, points[i].spacing);
-    coarsest = std::max(coarsest, points[i].spacing);
+    finest = std::min(finest, rms_edge(points[i].side));
+    coarsest = std::max(coarsest, rms_edge(points[i].side));
     // A cell is told by one of its places, at most half a diagonal away.
-    EXPECT_LT(points[i].spacing, 1.6 * (graded_edge(points[i].xyz) + 0.3 * points[i].spacing));
+    EXPECT_LT(rms_edge(points[i].side),
+              1.6 * (graded_edge(points[i].xyz) + 0.3 * rms_edge(points[i].side)));
     const double near = distance_to_nearest(points, i);
-    EXPECT_GT(near, 0.3 * points[i].spacing);
-    EXPECT_LT(near, 1.3 * points[i].spacing);
+    EXPECT_GT(near, 0.3 * rms_edge(points[i].side));
+    EXPECT_LT(near, 1.3 * rms_edge(points[i].side));
   }
   EXPECT_LT(finest, 0.5);
   EXPECT_GT(coarsest, 2.0);
@@ -153,8 +157,9 @@ TEST(OctreeLattice, NeighboursDifferByTwoAtMost)
   const std::vector<LatticePoint> points = graded_lattice();
   for (const LatticePoint& a : points) {
     for (const LatticePoint& b : points) {
-      if (b.spacing < 1.01 * a.spacing && norm(a.xyz - b.xyz) < 0.6 * a.spacing) {
-        EXPECT_GT(b.spacing, 0.49 * a.spacing);
+      if (rms_edge(b.side) < 1.01 * rms_edge(a.side)
+          && norm(a.xyz - b.xyz) < 0.6 * rms_edge(a.side)) {
+        EXPECT_GT(rms_edge(b.side), 0.49 * rms_edge(a.side));
       }
     }
   }

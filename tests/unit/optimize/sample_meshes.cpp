@@ -9,6 +9,7 @@
 
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/mesh/skeleton.hpp"
+#include "tessera/mesh/tet_neighbours.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/quality/tet_quality.hpp"
 #include "tessera/refine/lattice_refiner.hpp"
@@ -106,15 +107,8 @@ optimize::TetMesh one_tet()
 
 std::vector<LocalIndex> neighbours_of(const std::vector<LocalIndex>& tet_vertices)
 {
-  std::vector<LocalIndex> neighbours(tet_vertices.size(), kNoIndex);
-  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(tet_vertices)) {
-    if (triangle.tets[1] == kNoIndex) continue;
-    const LocalIndex first = 4 * triangle.tets[0] + triangle.corners[0];
-    const LocalIndex second = 4 * triangle.tets[1] + triangle.corners[1];
-    neighbours[at(first)] = second;
-    neighbours[at(second)] = first;
-  }
-  return neighbours;
+  const LocalIndex num_vertices = *std::ranges::max_element(tet_vertices) + 1;
+  return mesh::find_tet_neighbours(tet_vertices, num_vertices);
 }
 
 MeshFigures figures_of(const std::vector<double>& vertex_xyz,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,20 @@ std::vector<double> sizes_of(const PatchSurface& surface, const CoarseOptions& o
   std::vector<double> sizes;
   for (const Vec3& place : surface.vertex_xyz) sizes.push_back(function(place));
   return sizes;
+}
+
+TEST(SizeFunction, IsBelowALimitWhereOneOfItsSizesIs)
+{
+  SizeFunction function({.max_size = 1.0, .grading = 0.3});
+  function.limit({{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, 0.1},
+                  {{Vec3{3, 3, 3}, Vec3{3, 3, 3}, Vec3{3, 3, 3}}, 0.2}});
+  const std::array places{Vec3{0.2, 0.2, 0.3}, Vec3{0.4, 0.2, 0.6}, Vec3{2.0, 2.5, 2.0}};
+  double least = function.largest();
+  for (const Vec3& place : places) least = std::min(least, function(place));
+  EXPECT_FALSE(function.is_below(least, places));
+  EXPECT_TRUE(function.is_below(1.0001 * least, places));
+  EXPECT_TRUE(function.is_below(1.1, std::span(places).first(1))) << "no place wants more than 1";
+  EXPECT_FALSE(SizeFunction({.max_size = 1.0}).is_below(1.0, places)) << "without a source";
 }
 
 TEST(BentPlaces, GoRoundAWireThinnerThanTheLeastSize)
