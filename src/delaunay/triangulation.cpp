@@ -23,7 +23,7 @@ constexpr LocalIndex kept_by(LocalIndex vertex) { return 2 * vertex; }
 constexpr LocalIndex kUntested = -1;
 
 // The vertices of a face, ascending.
-std::array<LocalIndex, 3> face_key(const LocalIndex* tet, std::size_t corner)
+std::array<LocalIndex, 3> face_key(const std::array<LocalIndex, 4>& tet, std::size_t corner)
 {
   std::array<LocalIndex, 3> key{tet[corner ^ 1], tet[corner ^ 2], tet[corner ^ 3]};
   std::ranges::sort(key);
@@ -35,8 +35,7 @@ std::array<LocalIndex, 3> face_key(const LocalIndex* tet, std::size_t corner)
 Triangulation::Triangulation(std::vector<Vec3> points) : points_(std::move(points))
 {
   constexpr std::size_t kTetsAPoint = 7;  // Random points have 6.8.
-  tet_vertices_.reserve(4 * kTetsAPoint * points_.size());
-  tet_neighbours_.reserve(4 * kTetsAPoint * points_.size());
+  tets_.reserve(kTetsAPoint * points_.size());
   tet_tested_.reserve(kTetsAPoint * points_.size());
   add_first_tets(first_tet());
 }
@@ -67,7 +66,7 @@ void Triangulation::add_first_tets(const std::array<LocalIndex, 4>& first)
   for (Corner a = 0; a < 20; ++a) {
     for (Corner b = 0; b < a; ++b) {
       const auto key = [&](Corner corner) {
-        return face_key(&tet_vertices_[4 * at(tet_of(corner))], at(corner & 3));
+        return face_key(tets_[at(tet_of(corner))].vertices, at(corner & 3));
       };
       if (key(a) == key(b)) link(a, b);
     }
@@ -78,22 +77,21 @@ LocalIndex Triangulation::add_tet(const std::array<LocalIndex, 4>& vertices)
 {
   if (free_slots_.empty()) {
     if (tet_tested_.size() == kMostTets) throw MeshError("there would be 2^29 tets or more");
-    tet_vertices_.insert(tet_vertices_.end(), vertices.begin(), vertices.end());
-    tet_neighbours_.resize(tet_neighbours_.size() + 4, kNoIndex);
+    tets_.push_back({vertices});
     tet_tested_.push_back(kUntested);
     return num_slots() - 1;
   }
   const LocalIndex slot = free_slots_.back();
   free_slots_.pop_back();
-  std::ranges::copy(vertices, &tet_vertices_[4 * at(slot)]);
+  tets_[at(slot)] = {vertices};
   tet_tested_[at(slot)] = kUntested;
   return slot;
 }
 
 void Triangulation::link(Corner a, Corner b)
 {
-  tet_neighbours_[at(a)] = b;
-  tet_neighbours_[at(b)] = a;
+  across(a) = b;
+  across(b) = a;
 }
 
 bool Triangulation::is_ghost(LocalIndex tet) const { return place_of(kInfinity, tet) != kNoIndex; }
@@ -208,9 +206,8 @@ void Triangulation::fill_cavity(LocalIndex vertex)
     const Corner outside = across(corner);
     const LocalIndex tet = add_tet(made);
     // The old tet still knows what lies across: that is how sides are found.
-    std::fill_n(&tet_neighbours_[4 * at(tet)], 4, kNoIndex);
     link(4 * tet + (corner & 3), outside);
-    tet_neighbours_[at(corner)] = outside;
+    across(corner) = outside;
   }
   for (const Corner face : cavity_boundary_) {
     const LocalIndex tet = tet_of(across(across(face)));
@@ -219,7 +216,7 @@ void Triangulation::fill_cavity(LocalIndex vertex)
     }
     if (!is_ghost(tet)) last_ = tet;
   }
-  for (const LocalIndex tet : cavity_) tet_vertices_[4 * at(tet)] = kNoTet;
+  for (const LocalIndex tet : cavity_) tets_[at(tet)].vertices[0] = kNoTet;
   free_slots_.insert(free_slots_.end(), cavity_.begin(), cavity_.end());
 }
 

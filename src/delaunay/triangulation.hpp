@@ -29,22 +29,32 @@ class Triangulation {
   // Puts in the vertices that are not of the first tet, in their order.
   void insert_all();
 
-  [[nodiscard]] LocalIndex num_slots() const
-  {
-    return static_cast<LocalIndex>(tet_vertices_.size() / 4);
-  }
+  [[nodiscard]] LocalIndex num_slots() const { return static_cast<LocalIndex>(tets_.size()); }
   // Whether a slot has a tet, and no ghost.
   [[nodiscard]] bool has_tet(LocalIndex slot) const;
   [[nodiscard]] std::span<const LocalIndex, 4> vertices(LocalIndex tet) const
   {
-    return std::span<const LocalIndex, 4>(&tet_vertices_[4 * at(tet)], 4);
+    return tets_[at(tet)].vertices;
   }
-  [[nodiscard]] Corner across(Corner corner) const { return tet_neighbours_[at(corner)]; }
+  [[nodiscard]] Corner across(Corner corner) const
+  {
+    return tets_[at(tet_of(corner))].across[at(corner & 3)];
+  }
 
  private:
+  // All tets and ghosts have four neighbours. What is read together lies together.
+  struct alignas(32) Tet {
+    std::array<LocalIndex, 4> vertices{};
+    std::array<Corner, 4> across{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+  };
+
   [[nodiscard]] std::array<LocalIndex, 4> first_tet() const;
   void add_first_tets(const std::array<LocalIndex, 4>& first);
   LocalIndex add_tet(const std::array<LocalIndex, 4>& vertices);
+  [[nodiscard]] Corner& across(Corner corner)
+  {
+    return tets_[at(tet_of(corner))].across[at(corner & 3)];
+  }
   void link(Corner a, Corner b);
 
   [[nodiscard]] bool is_ghost(LocalIndex tet) const;
@@ -60,10 +70,9 @@ class Triangulation {
   [[nodiscard]] LocalIndex place_of(LocalIndex vertex, LocalIndex tet) const;
 
   std::vector<Vec3> points_;
-  std::vector<LocalIndex> tet_vertices_{};  // Shape (num_slots, 4).
-  std::vector<Corner> tet_neighbours_{};    // Shape (num_slots, 4); all tets and ghosts have four.
-  std::vector<LocalIndex> tet_tested_{};    // Shape (num_slots): which vertex was last tested, and
-                                            // whether it destroys the tet.
+  std::vector<Tet> tets_{};
+  std::vector<LocalIndex> tet_tested_{};  // Shape (num_slots): which vertex was last tested, and
+                                          // whether it destroys the tet.
   std::vector<LocalIndex> free_slots_{};
   LocalIndex last_ = 0;  // A tet that was made last, no ghost: where the next walk begins.
 
