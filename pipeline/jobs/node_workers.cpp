@@ -68,6 +68,7 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
   const std::string obstacle = shares ? share_workers(node, comm.rank(), jobs) : std::string();
   const std::vector<std::string> obstacles =
       comm.all_gather_rows(obstacle.empty() ? std::vector<std::string>{} : std::vector{obstacle});
+  jobs.prepare();  // The first rank reads the model now.
   if (obstacles.empty()) return;
   log.warn(fmt::format("{} of {} ranks keep the model in a process of their own: {}",
                        obstacles.size(), comm.size(), obstacles.front()));

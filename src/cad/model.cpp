@@ -8,11 +8,8 @@
 #include <utility>
 
 #include <BRepAdaptor_Curve.hxx>
-#include <BRepGProp.hxx>
-#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
@@ -191,21 +188,13 @@ FlatArray<LocalIndex> CadModel::material_rows() const
 }
 
 // Of triangles, for they are estimates. OpenCASCADE's integrals over the surfaces took a sixth of a
-// run of 300,000 tets (linkrods). A face that gets no triangles has its integral.
+// run of 300,000 tets (linkrods).
 coarse::ModelFigures CadModel::figures() const
 {
-  constexpr double kDeflection = 0.005;  // Of the box's diagonal.
-  constexpr double kAngle_rad = 0.3;     // Of a cylinder 1.5 % is missing then.
   return with_occ_errors(file_name_, [&] {
-    BRepMesh_IncrementalMesh(content_.shape, kDeflection * box_diagonal_, Standard_False,
-                             kAngle_rad);
-    GProp_GProps surface;
-    GProp_GProps solids;
-    BRepGProp::SurfaceProperties(content_.shape, surface, Standard_False, Standard_True);
-    BRepGProp::VolumeProperties(content_.shape, solids, Standard_False, Standard_False,
-                                Standard_True);
+    const RoughFigures rough = rough_figures_of(content_.shape, box_diagonal_);
     return coarse::ModelFigures{
-        .num_faces = faces_.Extent(), .area = surface.Mass(), .volume = solids.Mass()};
+        .num_faces = faces_.Extent(), .area = rough.area, .volume = rough.volume};
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
@@ -38,6 +39,18 @@ double volume_of(const TopoDS_Shape& shape)
   GProp_GProps properties;
   BRepGProp::VolumeProperties(shape, properties);
   return properties.Mass();
+}
+
+RoughFigures rough_figures_of(const TopoDS_Shape& shape, double diagonal)
+{
+  constexpr double kDeflection = 0.005;  // Of the diagonal.
+  constexpr double kAngle_rad = 0.3;     // Of a cylinder 1.5 % is missing then.
+  BRepMesh_IncrementalMesh(shape, kDeflection * diagonal, Standard_False, kAngle_rad);
+  GProp_GProps surface;
+  GProp_GProps solids;
+  BRepGProp::SurfaceProperties(shape, surface, Standard_False, Standard_True);
+  BRepGProp::VolumeProperties(shape, solids, Standard_False, Standard_False, Standard_True);
+  return {solids.Mass(), surface.Mass(), kDeflection * diagonal};
 }
 
 bool have_volume_of(const std::vector<TopoDS_Shape>& pieces, const TopoDS_Shape& solid)

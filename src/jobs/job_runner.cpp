@@ -117,6 +117,12 @@ void JobRunner::set_node(int num_ranks, std::vector<int> cores)
   state_->link.settings_are_told = false;
 }
 
+void JobRunner::prepare()
+{
+  const ZygoteLink& link = state_->link;
+  if (!link.has_joined()) send_signal(link.data.get(), PacketKind::prepare, link.num_calls);
+}
+
 void JobRunner::cap_limits(const JobLimits& largest) { state_->largest = largest; }
 
 std::string JobRunner::open_to_node()

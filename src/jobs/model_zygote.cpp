@@ -208,6 +208,9 @@ class ModelZygote {
         client.settings = from_bytes<ClientSettings>(message);
         client.log = open_log(client.settings.log_file);
         break;
+      case PacketKind::prepare:
+        prepare();
+        break;
       case PacketKind::open_door:
         open_door(client, header.call, message);
         break;
@@ -225,6 +228,14 @@ class ModelZygote {
       ::kill(client.job, SIGKILL);
     else  // before all of its request was here
       post(client, PacketKind::job_ended, call, to_bytes(ProcessEnd{}));
+  }
+
+  void prepare()
+  {
+    try {
+      worker();
+    } catch (...) {  // The first request says why.
+    }
   }
 
   void open_door(Client& client, std::uint32_t call, const Bytes& name)

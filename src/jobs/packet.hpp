@@ -22,6 +22,7 @@ enum class PacketKind : std::uint32_t {
   model_started,  ///< zygote, or model zygote that a rank has joined → rank: pid_t
   model_ended,    ///< zygote → rank: ProcessEnd
   settings,       ///< rank → model zygote: ClientSettings
+  prepare,        ///< rank → model zygote: make the worker already
   open_door,      ///< rank → its model zygote: where others may join, or empty: no more
   load,           ///< rank → model zygote: what Worker::load() gets
   run,            ///< rank → model zygote: what Worker::run() gets

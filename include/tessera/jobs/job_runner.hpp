@@ -128,6 +128,10 @@ class JobRunner {
   /// alone. Without it such a job is like others. Local.
   void set_node(int num_ranks, std::vector<int> cores);
 
+  /// @brief Lets the worker be made while this rank does something else. Without it the first load
+  /// or job waits for it. Does not wait; what fails is the outcome of that load or job. Local.
+  void prepare();
+
   /// @brief Lets ranks of this node join: their jobs are forks of this rank's model zygote. Ends
   /// what was loaded before. Local. @pre this runner has not joined another one.
   /// @return The name by which they join.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -17,6 +18,7 @@
 #include "tessera/jobs/job_runner.hpp"
 
 #include "support/failing_worker.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace tessera::jobs {
 namespace {
@@ -93,6 +95,32 @@ void signal_all(const Family& family, int signal)
 {
   ::kill(family.zygote, signal);
   ::kill(family.model, signal);
+}
+
+TEST(JobLifetime, TheWorkerIsMadeBeforeItIsNeededIfThatIsAskedFor)
+{
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "made";
+  JobRunner runner([file] {
+    std::ofstream(file) << "now";
+    return std::make_unique<FailingWorker>();
+  });
+  runner.prepare();
+  const auto deadline = Clock::now() + std::chrono::seconds(5);
+  while (!std::filesystem::exists(file) && Clock::now() < deadline) {
+    std::this_thread::sleep_for(milliseconds(2));
+  }
+  EXPECT_TRUE(std::filesystem::exists(file));
+  EXPECT_EQ(run(runner, "pids").status, JobStatus::ok);
+}
+
+TEST(JobLifetime, AWorkerThatCannotBeMadeFailsTheFirstJobAlsoIfItWasPrepared)
+{
+  JobRunner runner([]() -> std::unique_ptr<Worker> { throw std::runtime_error("no library"); });
+  runner.prepare();
+  const JobOutcome outcome = run(runner, "pids");
+  EXPECT_EQ(outcome.status, JobStatus::failed);
+  EXPECT_EQ(outcome.message, "no library");
 }
 
 TEST(JobLifetime, NothingIsLeftOfADestroyedRunner)
