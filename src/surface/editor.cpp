@@ -24,6 +24,10 @@ constexpr double kUnknown = -2.0;
 // corner.
 constexpr double kLeastCosine = 0.5;
 
+// In wanted lengths: how far the middle of a triangle may be off the reference if its corners do
+// not tell that it looks the right way. Without it vertices stayed at the axes of thin holes.
+constexpr double kMostOffMiddle = 0.25;
+
 // A new edge of a curve may leave the curve by this part of its length.
 constexpr double kMostBow = 0.2;
 
@@ -113,7 +117,7 @@ double SurfaceEditor::worst_shape(std::span<const LocalIndex> triangles)
 }
 
 // The reference is asked at the corners, whose answers are kept; only if these do not settle it, in
-// the middle.
+// the middle, if that is near: inside of a thin tube all directions are those of some wall.
 bool SurfaceEditor::is_upright(const PlacedTriangle& one)
 {
   const Vec3 n = normal_of(one.corners);
@@ -124,7 +128,10 @@ bool SurfaceEditor::is_upright(const PlacedTriangle& one)
   }
   if (all_corners) return true;
   const Vec3 middle = middle_of(one.corners);
-  return dot(n, reference_.normal(one.patch, middle)) >= least;
+  const auto [near, normal] = reference_.place_on_patch(one.patch, middle);
+  const double least_size = norm(near - middle) / kMostOffMiddle;
+  const auto is_near = [&](LocalIndex v) { return surface_.size(v) >= least_size; };
+  return dot(n, normal) >= least && std::ranges::all_of(one.vertices, is_near);
 }
 
 SurfaceEditor::KnownNormal& SurfaceEditor::known_normal(LocalIndex v, LocalIndex patch)

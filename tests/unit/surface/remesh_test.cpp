@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -156,6 +157,69 @@ TEST(Remesh, RepairsNeedles)
   const PatchSurface better = remesh(SurfaceReference(needles), of_size(0.5));
   EXPECT_NO_THROW(validate(better));
   EXPECT_GT(worst_quality(better), 0.3);
+}
+
+// A rod along x of 51 needles and a fan at each end, with a curve around each. As OpenCASCADE has
+// it.
+PatchSurface rod(double radius, double length)
+{
+  constexpr LocalIndex kNeedles = 51;
+  PatchSurface surface;
+  surface.vertex_xyz = {{0.0, 0.0, 0.0}, {length, 0.0, 0.0}};
+  for (LocalIndex i = 0; i < kNeedles; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kNeedles;
+    const LocalIndex near = 2 + 2 * i;
+    const LocalIndex next = 2 + 2 * ((i + 1) % kNeedles);
+    for (const double x : {0.0, length}) {
+      surface.vertex_xyz.push_back({x, radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    surface.triangles.insert(surface.triangles.end(), {{near, near + 1, next},
+                                                       {next, near + 1, next + 1},
+                                                       {0, near, next},
+                                                       {1, next + 1, near + 1}});
+    surface.triangle_patch.insert(surface.triangle_patch.end(), {0, 0, 1, 2});
+    for (const LocalIndex end : {0, 1}) {
+      surface.edges.push_back({std::min(near, next) + end, std::max(near, next) + end});
+      surface.edge_curve.push_back(end);
+    }
+  }
+  surface.vertex_is_fixed.assign(surface.vertex_xyz.size(), 0);
+  surface.patch_materials.assign(3, {0, 1});
+  return surface;
+}
+
+// How near the middle of an edge of the side comes to the rod's axis, in radii.
+double nearest_to_axis(const PatchSurface& surface, double radius)
+{
+  double least = 1.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (surface.triangle_patch[t] != 0) continue;
+    const auto p = surface.corners(t);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 middle = midpoint(p[c], p[(c + 1) % 3]);
+      least = std::min(least, std::hypot(middle[1], middle[2]) / radius);
+    }
+  }
+  return least;
+}
+
+// Where sizes change along it, needles are not divided alike. In these three of 84 cases edges led
+// through the rod, while normals at corners alone told whether a triangle looks the right way.
+TEST(Remesh, NoEdgeOfARodLeadsThroughIt)
+{
+  struct Fine {
+    Vec3 place;
+    double size;
+  };
+  for (const auto& [place, size] :
+       {Fine{{5.0, 1.5, 0.0}, 0.1}, Fine{{7.0, 0.75, 0.0}, 0.3}, Fine{{8.0, 1.5, 0.0}, 0.2}}) {
+    CoarseOptions options = of_size(7.4);
+    options.points.xyz.assign(place.begin(), place.end());
+    options.points.size = {size};
+    const PatchSurface better = remesh(SurfaceReference(rod(0.75, 20.2)), options);
+    EXPECT_NO_THROW(validate(better));
+    EXPECT_GT(nearest_to_axis(better, 0.75), 0.5);
+  }
 }
 
 TEST(Remesh, FollowsCurvature)
