@@ -64,8 +64,8 @@ QUARANTINE = {  # third-party header -> the only places that may include it
 PARTS = {  # (module, other module, "*": any) -> the only headers of the other that it may include
     ("config", "*"): ("options.hpp",),
     ("check", "mesh"): ("mesh_arrays.hpp", "periodic_pairs.hpp"),
-    ("delaunay", "mesh"): ("tet_topology.hpp",),
-    ("optimize", "mesh"): ("tet_topology.hpp",),
+    ("delaunay", "mesh"): ("tet_neighbours.hpp", "tet_topology.hpp"),
+    ("optimize", "mesh"): ("tet_neighbours.hpp", "tet_topology.hpp"),
     ("pipeline", "netgen"): ("factory.hpp",),
     ("surface", "delaunay"): ("predicates.hpp",),
 }

@@ -26,8 +26,8 @@ struct Tetrahedralization {
 /// tet. Where several such meshes exist, as on a grid, positions decide: insphere_untied().
 ///
 /// So the tets, and the order in which they come, depend on the set of points and on nothing else:
-/// not on the order of the rows, nor on what is known of a lattice. All tests are exact, so no tet is flat, and every point inside and
-/// on the hull is right, whatever lies on one plane or sphere.
+/// not on the order of the rows, nor on what is known of a lattice. All tests are exact, so no tet
+/// is flat, and every point inside and on the hull is right, whatever lies on one plane or sphere.
 ///
 /// Points are put in along a space-filling curve, a few of all first: a walk finds where, and the
 /// tets whose spheres hold the point make room for it. @cite bowyer1981 @cite watson1981 The hull
