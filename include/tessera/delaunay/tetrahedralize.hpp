@@ -36,10 +36,11 @@ struct Tetrahedralization {
 /// the others are of no tet.
 /// @param[in] lattice_side Shape (num_points), or empty: the side of the cells of a body-centred
 /// lattice of which the point is a corner or a middle, with corners at multiples of the side; 0 if
-/// of none. Tets deep inside of such lattices are written down, which takes a tenth of the time.
+/// of none. Tets deep inside of such lattices are written down: a million points of one take 1.9 s,
+/// not 7.2 s.
 /// @throws MeshError if a coordinate is not finite or beyond what orient3d() is exact for, if all
 /// points lie on one plane, or if there would be 2^29 tets or more.
-/// @note Local. Random points: about 4 us each.
+/// @note Local. Random points: about 6 us each.
 [[nodiscard]] Tetrahedralization tetrahedralize(std::span<const double> xyz,
                                                 std::span<const double> lattice_side = {});
 
