@@ -9,7 +9,7 @@ std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& data)
 {
   auto size = compressBound(data.size());
   std::vector<std::uint8_t> packed(size);
-  // The default takes a tenth of a second for the pictures of a run; files are 9 % smaller with it.
+  // With 2.5 M tets pictures take 0.3 s so, and 0.4 s with the default; report.html is 9 % larger.
   constexpr int kFast = 3;
   compress2(packed.data(), &size, data.data(), data.size(), kFast);
   packed.resize(size);

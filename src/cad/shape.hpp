@@ -37,7 +37,7 @@ struct RoughFigures {
 
 /// @brief Takes a fraction of the time that integrals over free-form faces take. A face that gets
 /// no triangles has its integral.
-/// @param[in] diagonal  What triangles are fine for: of the box of all solids.
+/// @param[in] diagonal  What triangles are fine for: of the box of the model.
 [[nodiscard]] RoughFigures rough_figures_of(const TopoDS_Shape& shape, double diagonal);
 
 /// @brief Whether pieces of a solid have its volume, to a ten thousandth. Local.

@@ -126,7 +126,7 @@ bool SurfaceEditor::is_upright(const PlacedTriangle& one)
   for (std::size_t c = 0; c < 3 && all_corners; ++c) {
     all_corners = dot(n, normal_at(one.vertices[c], one.patch, one.corners[c])) >= least;
   }
-  if (all_corners) return true;
+  if (all_corners || reference_.normal_of_plane(one.patch) != nullptr) return all_corners;
   const Vec3 middle = middle_of(one.corners);
   const auto [near, normal] = reference_.place_on_patch(one.patch, middle);
   const double least_size = norm(near - middle) / kMostOffMiddle;

@@ -8,7 +8,6 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepLib.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ShapeBuild_ReShape.hxx>
@@ -217,19 +216,22 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile&
   return closed;
 }
 
-// By its triangles, unless they are farther off its faces than these are apart.
-bool has_volume(const TopoDS_Shape& solid, double diagonal)
+// Of the only solid triangles tell it, unless they are farther off its faces than these are apart:
+// the model's figures are made of them later. Several are fused first, by boxes of triangles if
+// there are some.
+bool has_volume(const TopoDS_Shape& solid, bool is_only)
 {
-  const RoughFigures rough = rough_figures_of(solid, diagonal);
+  if (!is_only) return volume_of(solid) > 0.0;
+  const RoughFigures rough = rough_figures_of(solid, box_diagonal_of(solid));
   const bool is_sure = std::abs(rough.volume) > rough.deflection * rough.area;
   return (is_sure ? rough.volume : volume_of(solid)) > 0.0;
 }
 
 // A solid that is the outside of what was meant turns inside out.
-TopoDS_Shape outward(const TopoDS_Shape& shape, double diagonal, CadFile& cad)
+TopoDS_Shape outward(const TopoDS_Shape& shape, bool is_only, CadFile& cad)
 {
   TopoDS_Solid solid = TopoDS::Solid(shape);
-  if (is_left_out(Repair::turned_solids) || has_volume(solid, diagonal)) return solid;
+  if (is_left_out(Repair::turned_solids) || has_volume(solid, is_only)) return solid;
   BRepLib::OrientClosedSolid(solid);
   if (volume_of(solid) < 0.0) solid = TopoDS::Solid(solid.Reversed());
   note_repair(Repair::turned_solids);
@@ -315,13 +317,8 @@ void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options)
   const std::vector<TopoDS_Shape> loose_faces = loose_faces_of(cad.shape);
   const std::vector<TopoDS_Shape> loose_curves = loose_curves_of(cad.shape);
   std::vector<TopoDS_Shape> solids = closed_solids(cad);
-  const double diagonal = box_diagonal_of(cad.shape);
-  for (TopoDS_Shape& solid : solids) {
-    solid = outward(solid, diagonal, cad);
-    if (solids.size() > 1)
-      BRepTools::Clean(solid);  // Solids are fused by boxes of their triangles.
-    solid = without_overlaps(solid, cad);
-  }
+  const bool is_only = solids.size() == 1;
+  for (TopoDS_Shape& solid : solids) solid = without_overlaps(outward(solid, is_only, cad), cad);
   cad.shape = solids.size() == 1 ? solids.front() : glued(solids, options, cad);
   embed_faces(loose_faces, options, cad);
   embed_lines(loose_curves, options, cad);

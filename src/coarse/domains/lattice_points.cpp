@@ -68,11 +68,13 @@ InsidePoints lattice_points(const surface::DomainSkin& skin, const surface::Coar
   const SkinDistance distance(skin);
   surface::SizeFunction size(inside);
   size.limit(sizes_of(distance.triangles()));
-  const LatticeSpace space{
-      .is_wanted_below = [&](double edge,
-                             std::span<const Vec3> places) { return size.is_below(edge, places); },
-      .is_needed = [&](const Vec3& place,
-                       double within) { return !distance.is_outside(place, within); }};
+  const auto is_wanted_below = [&](double edge, std::span<const Vec3> places) {
+    return size.is_below(edge, places);
+  };
+  const auto is_needed = [&](const Vec3& place, double within) {
+    return !distance.is_outside(place, within);
+  };
+  const LatticeSpace space{is_wanted_below, is_needed};
   const Box box = bounding_box(skin.vertex_xyz);
   const std::vector<LatticePoint> points = octree_lattice(box, cell_side(inside.max_size), space);
   const std::vector<char> is_inside = find_inside(points, distance);

@@ -234,7 +234,7 @@ class Octree {
 
 double cell_side(double rms_edge) { return rms_edge * std::sqrt(6.0 / 5.0); }
 
-double rms_edge(double cell_side) { return cell_side / std::sqrt(6.0 / 5.0); }
+double rms_edge(double side) { return side / cell_side(1.0); }
 
 std::vector<LatticePoint> octree_lattice(const Box& box, double unit, const LatticeSpace& space)
 {

@@ -30,7 +30,7 @@ struct LatticeSpace {
 [[nodiscard]] double cell_side(double rms_edge);
 
 /// @brief The root mean square of the edges between the points of cells of this side.
-[[nodiscard]] double rms_edge(double cell_side);
+[[nodiscard]] double rms_edge(double side);
 
 /// @brief Corners and middles of the cells of an octree: in cells of one size a body-centred
 /// lattice, whose Delaunay tets are all alike. Local; a pure function.
