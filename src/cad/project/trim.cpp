@@ -15,7 +15,7 @@ namespace {
 
 // Cells a side. The classifier's time grows with the number of edges, and so does the part of the
 // cells that it has to answer for.
-constexpr int kMostCells = 512;
+constexpr int kMostCells = 2048;
 constexpr int kCellsPerEdge = 8;
 
 constexpr int kNumFirstSteps = 64;  // Along each edge, before steps are halved where they are long.
