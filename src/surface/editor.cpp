@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/triangle.hpp"
 
+#include "surface/angle_shape.hpp"
 #include "surface/model_curve.hpp"
 
 namespace tessera::surface {
@@ -44,21 +44,16 @@ constexpr double kLeastProgress = 0.2;
 // In parts of the wanted length.
 constexpr double kMostOffReference = 0.5;
 
-}  // namespace
+// In wanted lengths: what a collapse makes too long is split again. With 1.4 the triangles of
+// linkrods.step at 0.05 had a 1st percentile of 38.4 degrees, not 41.1; with no limit bearing.brep
+// cut itself at 460 places.
+constexpr double kMuchTooLong = 2.0;
 
-double angle_shape(const std::array<Vec3, 3>& p) noexcept
-{
-  std::array<double, 3> squares{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3 side = p[(c + 1) % 3] - p[c];
-    squares[c] = dot(side, side);
-  }
-  const double shortest = std::min({squares[0], squares[1], squares[2]});
-  const double product = squares[0] * squares[1] * squares[2];
-  if (product <= 0.0) return 0.0;
-  // The smallest angle is between the two longer sides.
-  return norm(normal_of(p)) * std::sqrt(shortest / product) * (2.0 / std::numbers::sqrt3);
-}
+// What is too long already may become longer by so much. So needles along a cylinder are joined
+// before they are split along it: frame.step at 0.4 is remeshed in 0.7 of the time.
+constexpr double kHardlyLonger = 1.1;
+
+}  // namespace
 
 SurfaceEditor::SurfaceEditor(const SurfaceReference& reference, const PatchSurface& start,
                              const SizeFunction& sizes, const model::Model* model,
@@ -317,7 +312,9 @@ bool SurfaceEditor::keeps_lengths(LocalIndex gone, LocalIndex kept) const
 {
   for (const LocalIndex t : surface_.triangles_of(gone)) {
     for (const LocalIndex other : surface_.triangle(t)) {
-      if (other != kept && other != gone && relative_length({other, kept}) > kTooLong) return false;
+      if (other == kept || other == gone) continue;
+      const double before = std::max(relative_length({other, gone}), kMuchTooLong / kHardlyLonger);
+      if (relative_length({other, kept}) > kHardlyLonger * before) return false;
     }
   }
   return true;

@@ -15,13 +15,6 @@
 
 namespace tessera::surface {
 
-/// @brief Sine of the smallest angle of a triangle over that of 60 degrees: 1 for an equilateral
-/// triangle, 0 for a flat one.
-[[nodiscard]] double angle_shape(const std::array<Vec3, 3>& corners) noexcept;
-
-/// An edge may be so long in parts of the wanted length.
-inline constexpr double kTooLong = 1.4;
-
 /// Of angle_shape(): the smallest angle is 18 degrees.
 inline constexpr double kFairShape = 0.35;
 
@@ -92,7 +85,7 @@ class SurfaceEditor {
   LocalIndex split(const Edge& edge, double part = 0.5);
 
   /// @brief Joins `gone` with `kept` if all triangles that change are better than `least` then, and
-  /// no edge becomes too long.
+  /// no edge becomes much too long.
   bool collapse(LocalIndex gone, LocalIndex kept, double least);
 
   /// @brief Moves a vertex that is not fixed, if all triangles around are better than `least` then.
