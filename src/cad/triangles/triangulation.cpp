@@ -265,12 +265,13 @@ std::vector<int> triangulate_faces(const TopoDS_Shape& shape,
     bare.clear();
     num_from_boundary = 0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (has_whole_triangles(TopoDS::Face(faces[f]))) continue;
-      const Closeness closeness = closeness_for(faces[f], finer_than(finer_parameters, part(f)));
-      if (!is_left_out(Repair::face_from_boundary)
-          && triangulate_from_boundary(faces[f], closeness)) {
+      const TopoDS_Face& face = TopoDS::Face(faces[f]);
+      const Closeness closeness = closeness_for(face, finer_than(finer_parameters, part(f)));
+      const bool is_whole = has_whole_triangles(face);
+      if (is_whole && follows_surface(face, closeness.deflection)) continue;
+      if (!is_left_out(Repair::face_from_boundary) && triangulate_from_boundary(face, closeness)) {
         ++num_from_boundary;
-      } else {
+      } else if (!is_whole) {
         bare.push_back(static_cast<int>(f));
       }
     }

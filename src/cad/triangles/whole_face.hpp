@@ -10,4 +10,9 @@ namespace tessera::cad {
 /// boundary of a face touches or cuts itself. Local.
 [[nodiscard]] bool has_whole_triangles(const TopoDS_Face& face);
 
+/// @brief Whether the triangles of a face that has them go along with its surface, and none of
+/// their edges leads across a bend. OpenCASCADE joins points of a narrow helical strip that way.
+/// @param[in] deflection  That was asked for, model length unit. Local.
+[[nodiscard]] bool follows_surface(const TopoDS_Face& face, double deflection);
+
 }  // namespace tessera::cad
