@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -24,14 +25,12 @@ namespace {
 
 using Segment = std::pair<int, int>;
 
-// An edge of a triangle is off the surface if its middle is so many deflections and so much of its
-// length off: of linkrods, screw, CrankArm and bottle no face has one, of a screw with its thread
-// one flank has (3.9 deflections, 0.15), and points lay inside of its core.
-constexpr double kMostDeflections = 3.0;
-constexpr double kMostBow = 0.1;
-
-// In lengths of the edge: what is longer in parameters goes another way, as from a pole.
-constexpr double kMostDetour = 1.3;
+// The middle of an edge of a triangle is off the surface if it is so many deflections and so much
+// of its length away, along the normal. Of linkrods, screw, CrankArm and bottle no face has such an
+// edge. A flank of a screw's thread has (1.9 and 0.08), and points lay inside of the screw's core.
+constexpr double kMostDeflections = 1.5;
+constexpr double kMostBow = 0.06;
+constexpr double kPole = 1e-6;  // Of a derivative, in parts of that in the middle.
 
 class FaceBorder {
  public:
@@ -117,38 +116,72 @@ class FaceBorder {
   std::vector<Segment> segments_{};
 };
 
+// The triangles of a face beside its surface.
+class FaceTriangles {
+ public:
+  explicit FaceTriangles(const TopoDS_Face& face)
+      : mesh_(BRep_Tool::Triangulation(face, place_)), surface_(BRep_Tool::Surface(face))
+  {
+  }
+
+  [[nodiscard]] bool follow_surface(double deflection) const
+  {
+    if (mesh_.IsNull() || !mesh_->HasUVNodes()) return true;
+    for (int t = 1; t <= mesh_->NbTriangles(); ++t) {
+      std::array<int, 3> nodes{};
+      mesh_->Triangle(t).Get(nodes[0], nodes[1], nodes[2]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (is_off(nodes[c], nodes[(c + 1) % 3], deflection)) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  struct Place {
+    gp_Pnt point{};
+    std::array<gp_Vec, 2> slopes{};
+  };
+
+  [[nodiscard]] Place place_at(const gp_XY& uv) const
+  {
+    Place there;
+    surface_->D1(uv.X(), uv.Y(), there.point, there.slopes[0], there.slopes[1]);
+    return there;
+  }
+
+  [[nodiscard]] bool is_off(int a, int b, double deflection) const
+  {
+    const gp_XYZ from = mesh_->Node(a).Transformed(place_).XYZ();
+    const gp_XYZ to = mesh_->Node(b).Transformed(place_).XYZ();
+    const Place middle = place_at(0.5 * (mesh_->UVNode(a).XY() + mesh_->UVNode(b).XY()));
+    const gp_Vec off(middle.point.XYZ() - 0.5 * (from + to));
+    const gp_Vec normal = middle.slopes[0].Crossed(middle.slopes[1]);
+    const double most = std::max(kMostDeflections * deflection, kMostBow * (to - from).Modulus());
+    return std::abs(off.Dot(normal)) > most * normal.Magnitude() && !is_pole(a, middle)
+           && !is_pole(b, middle);
+  }
+
+  // There parameters are any, so the middle of an edge is elsewhere.
+  [[nodiscard]] bool is_pole(int node, const Place& beside) const
+  {
+    const Place there = place_at(mesh_->UVNode(node).XY());
+    return there.slopes[0].Magnitude() <= kPole * beside.slopes[0].Magnitude()
+           || there.slopes[1].Magnitude() <= kPole * beside.slopes[1].Magnitude();
+  }
+
+  TopLoc_Location place_{};
+  Handle(Poly_Triangulation) mesh_;
+  Handle(Geom_Surface) surface_;
+};
+
 }  // namespace
 
 bool has_whole_triangles(const TopoDS_Face& face) { return FaceBorder(face).is_whole(); }
 
 bool follows_surface(const TopoDS_Face& face, double deflection)
 {
-  TopLoc_Location place;
-  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
-  if (mesh.IsNull() || !mesh->HasUVNodes()) return true;
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  const auto is_near = [&](int a, int b) {
-    const gp_XYZ from = mesh->Node(a).Transformed(place).XYZ();
-    const gp_XYZ to = mesh->Node(b).Transformed(place).XYZ();
-    const double length = (to - from).Modulus();
-    const gp_XY uv = 0.5 * (mesh->UVNode(a).XY() + mesh->UVNode(b).XY());
-    gp_Pnt middle;
-    gp_Vec by_u;
-    gp_Vec by_v;
-    surface->D1(uv.X(), uv.Y(), middle, by_u, by_v);
-    const double off = (middle.XYZ() - 0.5 * (from + to)).Modulus();
-    if (off <= kMostDeflections * deflection || off <= kMostBow * length) return true;
-    const gp_XY step = mesh->UVNode(b).XY() - mesh->UVNode(a).XY();
-    return (by_u * step.X() + by_v * step.Y()).Magnitude() > kMostDetour * length;
-  };
-  for (int t = 1; t <= mesh->NbTriangles(); ++t) {
-    std::array<int, 3> nodes{};
-    mesh->Triangle(t).Get(nodes[0], nodes[1], nodes[2]);
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!is_near(nodes[c], nodes[(c + 1) % 3])) return false;
-    }
-  }
-  return true;
+  return FaceTriangles(face).follow_surface(deflection);
 }
 
 }  // namespace tessera::cad

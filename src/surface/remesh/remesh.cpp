@@ -411,11 +411,12 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
   const PatchSurface& start = reference.surface();
   SizeFunction sizes(options);
   sizes.limit(bent_places_of(start, for_bends_of_triangles(start, options)));
-  Remesher remesher(reference, start, sizes, nullptr, {});
-  std::vector<SizeSource> sources = narrow_strips_of(remesher.with_short_curves(), options);
+  Remesher with_strips(reference, start, sizes, nullptr, {});
+  std::vector<SizeSource> sources = narrow_strips_of(with_strips.with_short_curves(), options);
   if (!is_left_out(Repair::wall_sizes)) {
+    Remesher with_walls(reference, start, sizes, nullptr, {});
     const auto walls =
-        thin_walls_of(remesher.with_even_edges(), start.patch_materials, options.max_size);
+        thin_walls_of(with_walls.with_even_edges(), start.patch_materials, options.max_size);
     sources.insert(sources.end(), walls.begin(), walls.end());
   }
   const std::vector<SizeSource> of_model = sizes_of_model(start);

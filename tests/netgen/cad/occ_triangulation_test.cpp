@@ -276,6 +276,29 @@ TEST(WholeTriangles, AFaceWithoutOneOfItsTrianglesIsNoticedAndDoneAnew)
   }
 }
 
+TEST(WholeTriangles, ThoseOfRoundSolidsFollowTheirSurfacesUpToPolesAndApices)
+{
+  for (const TopoDS_Shape& shape :
+       {BRepPrimAPI_MakeCylinder(5, 20).Shape(), BRepPrimAPI_MakeCone(8, 0, 12).Shape(),
+        BRepPrimAPI_MakeSphere(5).Shape(), BRepPrimAPI_MakeTorus(10, 3).Shape()}) {
+    BRepMesh_IncrementalMesh(shape, 0.05, Standard_False, 0.25);
+    for (const TopoDS_Shape& face : parts_of(shape, TopAbs_FACE)) {
+      EXPECT_TRUE(follows_surface(TopoDS::Face(face), 0.05));
+    }
+  }
+}
+
+// As OpenCASCADE joins points of a narrow helical strip.
+TEST(WholeTriangles, EdgesThatLeadAcrossABendAreNoticed)
+{
+  const TopoDS_Shape shape = BRepPrimAPI_MakeCylinder(5, 20).Shape();
+  BRepMesh_IncrementalMesh(shape, 3.0, Standard_False, 1.5);
+  const std::vector<TopoDS_Shape> faces = parts_of(shape, TopAbs_FACE);
+  EXPECT_FALSE(follows_surface(TopoDS::Face(faces[0]), 0.05));  // Its side.
+  EXPECT_TRUE(follows_surface(TopoDS::Face(faces[0]), 3.0));
+  EXPECT_TRUE(follows_surface(TopoDS::Face(faces[1]), 0.05));
+}
+
 // A wire of two lines between the same two points, as CAD programs leave it of a face of no width.
 TEST(OccTriangulation, AFaceOfNoWidthHasTriangles)
 {
