@@ -33,6 +33,10 @@ using Edge = PatchSurface::Edge;
 constexpr double kTooLong = 1.4;
 constexpr double kTooShort = 0.7;
 
+// Where walls are looked for, only what is shorter than this part of kTooShort is collapsed.
+// Without a limit chords left a hollow ball of radius 1 by more than its wall of 0.04 was thick.
+constexpr double kNeedle = 0.3;
+
 // Curves are divided before, into whole numbers of edges. These are not undone.
 constexpr double kTooLongOfCurve = 1.6;
 constexpr double kTooShortOfCurve = 0.6;
@@ -88,11 +92,11 @@ class Remesher {
     return surface_;
   }
 
-  // Edges are about as long as is wanted: triangles of the reference may be as large as its faces,
-  // or needles along them.
-  const EditableSurface& with_even_edges()
+  // The surface as it is, but with edges that are hardly longer than is wanted, and few needles:
+  // triangles of the reference may be as large and as narrow as its faces.
+  const EditableSurface& with_short_edges()
   {
-    collapse_short_edges();
+    collapse_short_edges(kNeedle);
     split_long_edges();
     return surface_;
   }
@@ -254,13 +258,14 @@ class Remesher {
     });
   }
 
-  void collapse_short_edges()
+  // @param[in] part  Of what is too short; longer edges stay.
+  void collapse_short_edges(double part = 1.0)
   {
-    sweep(kMostSweeps, collapsed_since_, [this](const std::vector<Edge>& edges) {
+    sweep(kMostSweeps, collapsed_since_, [this, part](const std::vector<Edge>& edges) {
       std::vector<std::pair<double, Edge>> shortest;
       for (const Edge& edge : edges) {
         const double relative = editor_.relative_length(edge);
-        if (relative >= (is_on_curve(edge) ? kTooShortOfCurve : kTooShort)) continue;
+        if (relative >= part * (is_on_curve(edge) ? kTooShortOfCurve : kTooShort)) continue;
         shortest.emplace_back(relative, edge);
       }
       std::ranges::sort(shortest);
@@ -416,7 +421,7 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
   if (!is_left_out(Repair::wall_sizes)) {
     Remesher with_walls(reference, start, sizes, nullptr, {});
     const auto walls =
-        thin_walls_of(with_walls.with_even_edges(), start.patch_materials, options.max_size);
+        thin_walls_of(with_walls.with_short_edges(), start.patch_materials, options.max_size);
     sources.insert(sources.end(), walls.begin(), walls.end());
   }
   const std::vector<SizeSource> of_model = sizes_of_model(start);
