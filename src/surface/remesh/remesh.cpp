@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "surface/remesh/patch_parts.hpp"
 #include "surface/remesh/periodic_rims.hpp"
 #include "surface/remesh/polish.hpp"
+#include "surface/remesh/valence.hpp"
 #include "surface/sizes/strip_sizes.hpp"
 #include "surface/sizes/surface_sizes.hpp"
 #include "surface/sizes/wall_sizes.hpp"
@@ -62,7 +62,7 @@ constexpr double kMostLoss = 0.7;
 // at size 0.332 kept all of them, and its 1st percentile was 14.8 degrees where it is 35.8 now.
 constexpr double kFairOnCurve = 0.25;
 
-// The sum of the squares of too_many() falls by twice the gain less four.
+// The sum of the squares of excess_valence() falls by twice the gain less four.
 constexpr double kLeastGainOfValences = 2.5;
 
 // In parts of the wanted length: a vertex so near to its best place stays.
@@ -197,27 +197,11 @@ class Remesher {
     const LocalIndex patch = surface_.patch(two[0]);
     const LocalIndex c = opposite(surface_.triangle(two[0]), edge);
     const LocalIndex d = opposite(surface_.triangle(two[1]), edge);
-    const double gain = too_many(edge[0], patch) + too_many(edge[1], patch) - too_many(c, patch)
-                        - too_many(d, patch);
+    const auto too_many = [&](LocalIndex v) { return excess_valence(surface_, v, patch); };
+    const double gain = too_many(edge[0]) + too_many(edge[1]) - too_many(c) - too_many(d);
     if (gain <= kLeastGainOfValences) return false;
     const double before = std::max(editor_.worst_shape(two), 0.0);
     return editor_.flip(edge, std::min(kMostLoss * before, kFairShape));
-  }
-
-  // How many triangles of the patch a vertex has more than there is room for at 60 degrees each.
-  [[nodiscard]] double too_many(LocalIndex v, LocalIndex patch) const
-  {
-    const bool is_inside = surface_.freedom(v) == Freedom::patch;
-    double turn = 0.0;
-    int count = 0;
-    for (const LocalIndex t : surface_.triangles_of(v)) {
-      if (surface_.patch(t) != patch) continue;
-      ++count;
-      if (is_inside) continue;
-      const auto [p, a, b] = surface_.corners_from(t, v);
-      turn += angle_between(a - p, b - p);
-    }
-    return count - (is_inside ? 6.0 : std::max(1.0, turn * 3.0 / std::numbers::pi));
   }
 
   [[nodiscard]] bool is_on_curve(const Edge& edge) const
