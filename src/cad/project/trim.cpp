@@ -14,7 +14,8 @@ namespace tessera::cad {
 namespace {
 
 // Cells a side. The classifier's time grows with the number of edges, and so does the part of the
-// cells that it has to answer for.
+// cells that it has to answer for. With at most 512, it took a third of a plate with some hundred
+// holes.
 constexpr int kMostCells = 2048;
 constexpr int kCellsPerEdge = 8;
 
