@@ -109,7 +109,7 @@ class Folds(FillLevelsTest):
         self.case = self.write_case("can.toml", geometry="can.geo", max_size=10, subdomains=6)
 
     def meshed(self, folder, levels, code, ranks=None):
-        values = ("coarse.curvature=0.6", "coarse.grading=0.5", OPTIMIZE, "fill.levels=1", f"refine.levels={levels}")
+        values = ("coarse.curvature=0.6", "coarse.grading=0.3", OPTIMIZE, "fill.levels=1", f"refine.levels={levels}")
         outcome = self.run_program(
             "mesh", self.case, "--output", folder, "--progress", "never", *sets(*values), ranks=ranks
         )

@@ -54,7 +54,8 @@ class Repairs(program.ProgramTest):
         self.assertNotIn("wall_sizes", without["repairs"])
         self.assertEqual(reports[0]["coarse"]["sharp"]["num_tets"], 0)
         self.assertGreater(without["coarse"]["sharp"]["num_tets"], 0)
-        self.assertLess(without["quality"]["min_dihedral_deg"], reports[0]["quality"]["min_dihedral_deg"])
+        for key in ("mean", "p01"):
+            self.assertLess(without["quality"]["mean_ratio"][key], reports[0]["quality"]["mean_ratio"][key])
 
     def test_a_try_is_one_and_the_next_takes_its_place(self):
         self.write_plate()

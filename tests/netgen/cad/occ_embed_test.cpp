@@ -134,7 +134,9 @@ TEST_F(OccEmbed, AFaceMayLieInTheMiddleOfABody)
   const auto mesh = this->mesh({.embedded = {{"disk", disk}}});
   expect_one_body(mesh);
   EXPECT_EQ(mesh.num_patches(), 7);
-  EXPECT_NEAR(areas_of(mesh).at("disk"), 0.09 * std::numbers::pi, 0.05 * 0.28);
+  const double area = 0.09 * std::numbers::pi;
+  EXPECT_LT(areas_of(mesh).at("disk"), area);
+  EXPECT_GT(areas_of(mesh).at("disk"), 0.9 * area);  // An octagon has that, at this size.
 }
 
 TEST_F(OccEmbed, AFaceMayDivideABodyWhichStaysOne)
