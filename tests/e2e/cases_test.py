@@ -64,7 +64,9 @@ CASES = {
     "faults": Expected(
         2e6, 1e-9, ("low", "middle", "high"), FAULT_PATCHES, coarser=("size.target=16",)
     ),
-    "frustum": Expected(FRUSTUM, 0.05, ("material_1",), numbered(3)),
+    "frustum": Expected(
+        FRUSTUM, 0.05, ("material_1",), numbered(3), coarser=("refine.levels=1",)
+    ),
     "own_mesh": Expected(math.pi * 5**2 * 20, 0.1, ("rod",), frozenset({"jacket", "ends"}), ("mm",)),
     "packing": Expected(
         1, 1e-9, ("matrix", "grains"), PACKING_PATCHES, coarser=("size.target=0.1",)
