@@ -27,7 +27,7 @@ using Segment = std::pair<int, int>;
 
 // The middle of an edge of a triangle is off the surface if it is so many deflections and so much
 // of its length away, along the normal. Of linkrods, screw, CrankArm and bottle no face has such an
-// edge. A flank of a screw's thread has (1.9 and 0.08), and points lay inside of the screw's core.
+// edge. A flank of a screw's thread has (2 and 0.08), and points lay inside of the screw's core.
 constexpr double kMostDeflections = 1.5;
 constexpr double kMostBow = 0.06;
 constexpr double kPole = 1e-6;  // Of a derivative, in parts of that in the middle.
