@@ -159,7 +159,7 @@ class Periodic(unittest.TestCase):
         """In three directions, around an axis, and with layers; in one mesh and in parts."""
         for mesh, num_patches in (
             (made_of(balls_model(), balls_case("size.target = 0.1"), parts=PARTS), 6),
-            (made_of(wheel_model(1), wheel_case(1, 0.05), parts=PARTS), 2),
+            (made_of(wheel_model(1), wheel_case(1, 0.048), parts=PARTS), 2),
             (made_of(PIPE, pipe_case(0.1), parts=PARTS), 2),
         ):
             self.addCleanup(mesh.remove)
