@@ -50,7 +50,7 @@ constexpr double kMostOffReference = 0.5;
 constexpr double kMuchTooLong = 2.0;
 
 // What is too long already may become longer by so much. So needles along a cylinder are joined
-// before they are split along it: frame.step at 0.4 is remeshed in 0.7 of the time.
+// before they are split along it: linkrods, screw and frame are remeshed in 0.8 of the time.
 constexpr double kHardlyLonger = 1.1;
 
 }  // namespace
