@@ -88,7 +88,7 @@ class Remesher {
   // The surface as it is, but edges of its curves are hardly longer than is wanted.
   const EditableSurface& with_short_curves()
   {
-    split_long_edges(&Remesher::is_on_curve);
+    split_long_edges([this](const Edge& edge) { return is_on_curve(edge); });
     return surface_;
   }
 
@@ -209,22 +209,20 @@ class Remesher {
     return surface_.curve(edge[0], edge[1]) != kNoIndex;
   }
 
-  [[nodiscard]] bool is_inside(const Edge& edge) const { return !is_on_curve(edge); }
-  [[nodiscard]] bool is_any(const Edge& /*edge*/) const { return true; }
+  void split_long_edges()
+  {
+    split_long_edges([this](const Edge& edge) { return !keeps_curves_ || !is_on_curve(edge); });
+  }
 
   // Longest first. A triangle is split once a sweep: its other edges may be short enough once
   // those around have been flipped.
-  void split_long_edges()
+  template <class MaySplit>
+  void split_long_edges(const MaySplit& may_split)
   {
-    split_long_edges(keeps_curves_ ? &Remesher::is_inside : &Remesher::is_any);
-  }
-
-  void split_long_edges(bool (Remesher::*is_one)(const Edge&) const)
-  {
-    sweep(kMostSweeps, split_since_, [this, is_one](const std::vector<Edge>& edges) {
+    sweep(kMostSweeps, split_since_, [&](const std::vector<Edge>& edges) {
       std::vector<std::pair<double, Edge>> longest;
       for (const Edge& edge : edges) {
-        if (!(this->*is_one)(edge)) continue;
+        if (!may_split(edge)) continue;
         const double relative = editor_.relative_length(edge);
         if (relative <= (is_on_curve(edge) ? kTooLongOfCurve : kTooLong)) continue;
         longest.emplace_back(-relative, edge);
