@@ -16,6 +16,7 @@
 #include "tessera/base/repair.hpp"
 #include "tessera/base/tet.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/make_room.hpp"
 #include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/layers/find_wakes.hpp"
@@ -224,6 +225,7 @@ class MeshWorker final : public jobs::Worker {
       coarse::optimize_interior(made.mesh);
       if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
     }
+    coarse::make_room_for_arcs(made.mesh, *netgen_model_);
     made.distance = made.distance.scaled(scale_);
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     netgen::name_curves(*netgen_model_, made.mesh);
