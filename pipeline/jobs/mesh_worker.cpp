@@ -217,15 +217,16 @@ class MeshWorker final : public jobs::Worker {
   [[nodiscard]] Bytes answer(const CoarseMeshRequest& request) const
   {
     cut::CutMesh filled = surface::fill_surface(request.surface, request.filled);
-    CoarseTry made{.mesh = std::move(filled.mesh), .tet_part = std::move(filled.tet_part)};
     const surface::Defeatured& merged = request.surface.defeatured;
-    made.distance = coarse::snap_vertices(made.mesh, *netgen_model_, merged);
-    made.defeatured = merged.scaled(scale_);
+    CoarseTry made{.distance = coarse::snap_vertices(filled.mesh, *netgen_model_, merged),
+                   .defeatured = merged.scaled(scale_)};
     if (request.options.optimize) {
-      coarse::optimize_interior(made.mesh);
-      if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
+      coarse::optimize_interior(filled.mesh);
+      if (!filled.tet_part.empty()) filled.tet_part = parts_of_tets(filled.mesh, request.planes);
     }
-    coarse::make_room_for_arcs(made.mesh, *netgen_model_);
+    coarse::make_room_for_arcs(filled, *netgen_model_);
+    made.mesh = std::move(filled.mesh);
+    made.tet_part = std::move(filled.tet_part);
     made.distance = made.distance.scaled(scale_);
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     netgen::name_curves(*netgen_model_, made.mesh);

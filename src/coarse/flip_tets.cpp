@@ -39,7 +39,7 @@ struct Ring {
 class Flipper {
  public:
   Flipper(mesh::CoarseMesh& mesh, const Geometry& geometry)
-      : mesh_(mesh), geometry_(geometry), is_gone_(at(mesh.num_tets()), 0)
+      : mesh_(mesh), geometry_(geometry), changes_(mesh)
   {
     collect_edges();
   }
@@ -56,7 +56,7 @@ class Flipper {
     for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh_.tet_vertices)) {
       flips += exchange_face(triangle) ? 1 : 0;
     }
-    apply();
+    changes_.apply(mesh_);
     return flips;
   }
 
@@ -104,7 +104,7 @@ class Flipper {
               {}};
     std::vector<std::array<LocalIndex, 2>> steps;
     for (const EdgeOfTet& one : around) {
-      if (is_gone_[at(one.tet)] != 0 || mesh_.tet_material[at(one.tet)] != ring.material)
+      if (changes_.is_gone(one.tet) || mesh_.tet_material[at(one.tet)] != ring.material)
         return ring;
       steps.push_back(step_of(one));
     }
@@ -147,11 +147,12 @@ class Flipper {
     }
     const RingTriangulation cheapest = cheapest_triangulation(ring);
     if (!(cheapest.cost() < (1.0 - kLeastGain) * before)) return false;
-    for (const EdgeOfTet& one : around) is_gone_[at(one.tet)] = 1;
+    for (const EdgeOfTet& one : around) changes_.remove(one.tet);
+    const LocalIndex old = around.front().tet;
     const std::vector<LocalIndex>& c = ring.corners;
     cheapest.for_each_triangle([&](std::size_t i, std::size_t j, std::size_t k) {
-      add({ring.a, c[i], c[j], c[k]}, ring.material);
-      add({ring.b, c[k], c[j], c[i]}, ring.material);
+      changes_.add({ring.a, c[i], c[j], c[k]}, old);
+      changes_.add({ring.b, c[k], c[j], c[i]}, old);
     });
     return true;
   }
@@ -171,7 +172,7 @@ class Flipper {
   bool exchange_face(const mesh::TriangleTets& triangle)
   {
     const auto& [first, second] = triangle.tets;
-    if (second == kNoIndex || is_gone_[at(first)] != 0 || is_gone_[at(second)] != 0) return false;
+    if (second == kNoIndex || changes_.is_gone(first) || changes_.is_gone(second)) return false;
     if (mesh_.tet_material[at(first)] != mesh_.tet_material[at(second)]) return false;
     const auto& corner = mesh::kTetFaceCorners[at(triangle.corners[0])];
     const auto tet = mesh_.tet(first);
@@ -185,41 +186,16 @@ class Flipper {
     for (std::size_t i = 0; i < 3; ++i) after += cost(below, above, f[i], f[(i + 1) % 3]);
     const double before = cost(f[0], f[2], f[1], below) + cost(f[0], f[1], f[2], above);
     if (!(after < (1.0 - kLeastGain) * before)) return false;
-    is_gone_[at(first)] = is_gone_[at(second)] = 1;
-    for (std::size_t i = 0; i < 3; ++i)
-      add({below, above, f[i], f[(i + 1) % 3]}, mesh_.tet_material[at(first)]);
+    changes_.remove(first);
+    changes_.remove(second);
+    for (std::size_t i = 0; i < 3; ++i) changes_.add({below, above, f[i], f[(i + 1) % 3]}, first);
     return true;
-  }
-
-  void add(const Tet& tet, LocalIndex material)
-  {
-    new_tets_.insert(new_tets_.end(), tet.begin(), tet.end());
-    new_materials_.push_back(material);
-  }
-
-  // Tets that stay keep their order; new ones follow.
-  void apply()
-  {
-    std::vector<LocalIndex> tets;
-    std::vector<LocalIndex> materials;
-    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
-      if (is_gone_[at(t)] != 0) continue;
-      const auto tet = mesh_.tet(t);
-      tets.insert(tets.end(), tet.begin(), tet.end());
-      materials.push_back(mesh_.tet_material[at(t)]);
-    }
-    tets.insert(tets.end(), new_tets_.begin(), new_tets_.end());
-    materials.insert(materials.end(), new_materials_.begin(), new_materials_.end());
-    mesh_.tet_vertices = std::move(tets);
-    mesh_.tet_material = std::move(materials);
   }
 
   mesh::CoarseMesh& mesh_;
   const Geometry& geometry_;
-  std::vector<char> is_gone_;
+  TetChanges changes_;
   std::vector<EdgeOfTet> edges_{};  // Ascending.
-  std::vector<LocalIndex> new_tets_{};
-  std::vector<LocalIndex> new_materials_{};
 };
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 #include "tessera/mesh/coarse_mesh.hpp"
 
-namespace tessera::coarse {
+#include "coarse/tet_changes.hpp"
 
-using Tet = std::array<LocalIndex, 4>;
+namespace tessera::coarse {
 
 // The triangles and edges of a mesh that stay: those on the geometry, and lines inside.
 class Geometry {

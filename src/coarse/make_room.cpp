@@ -4,22 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include "tessera/base/error.hpp"
-#include "tessera/base/given_up.hpp"
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/base/tet.hpp"
+#include "tessera/mesh/tet_neighbours.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
+#include "coarse/arcs.hpp"
 #include "coarse/flip_tets.hpp"
+#include "coarse/tet_changes.hpp"
 
 namespace tessera::coarse {
 namespace {
 
-// Scaled Jacobians; that of a regular tet is 0.71. On the corpus, moves that began at 0.03 or 0.1
-// took angles of other tets, and left as many folds.
+// Least scaled Jacobians. On the corpus, moves that began at 0.03 or 0.1 took angles of other tets,
+// and left as many folds.
 constexpr double kFolding = 0.01;
 constexpr double kEnough = 0.1;
 
@@ -30,110 +33,57 @@ constexpr double kOfOwnShape = 0.9;
 constexpr double kLongestStep = 0.25;
 constexpr double kShortestStep = 0.01;
 
-using Edge = std::array<LocalIndex, 2>;
+constexpr int kRounds = 4;             // Of moves and new vertices.
+constexpr std::size_t kMostTets = 24;  // That a new vertex takes the place of.
+constexpr double kLeastOfNew = 0.03;   // Of the tets around a new vertex.
 
-// How the edges on the geometry bow.
-class Arcs {
- public:
-  Arcs(const mesh::CoarseMesh& mesh, const model::Model& model) : mesh_(mesh), model_(model)
-  {
-    for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) add_segment(s);
-    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) add_face(f);
-    // A curve goes before the surfaces that it bounds.
-    std::ranges::stable_sort(arcs_, {}, &Arc::edge);
-    const auto again = std::ranges::unique(arcs_, {}, &Arc::edge);
-    arcs_.erase(again.begin(), again.end());
-    for (Arc& arc : arcs_) arc.bow = bow_of(arc);
-  }
-
-  // From the middle of the edge's chord to the geometry; nothing inside.
-  [[nodiscard]] Vec3 bow(LocalIndex a, LocalIndex b) const
-  {
-    const Edge edge = mesh::sorted_edge(a, b);
-    const auto arc = std::ranges::lower_bound(arcs_, edge, {}, &Arc::edge);
-    return arc != arcs_.end() && arc->edge == edge ? arc->bow : Vec3{};
-  }
-
- private:
-  struct Arc {
-    Edge edge{};
-    LocalIndex curve = kNoIndex;
-    LocalIndex surface = kNoIndex;          // Unless there is a curve.
-    model::SurfaceParameters parameters{};  // Near the middle; a curve has the first only.
-    Vec3 bow{};
-  };
-
-  void add_segment(LocalIndex s)
-  {
-    const std::size_t from = 2 * at(s);
-    Arc arc{
-        .edge = mesh::sorted_edge(mesh_.segment_vertices[from], mesh_.segment_vertices[from + 1]),
-        .curve = mesh_.segment_curve[at(s)]};
-    const auto& t = mesh_.segment_t;
-    if (!t.empty()) arc.parameters[0] = 0.5 * (t[from] + t[from + 1]);
-    arcs_.push_back(arc);
-  }
-
-  void add_face(LocalIndex f)
-  {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t from = 3 * at(f) + c;
-      const std::size_t to = 3 * at(f) + (c + 1) % 3;
-      Arc arc{.edge = mesh::sorted_edge(mesh_.face_vertices[from], mesh_.face_vertices[to]),
-              .surface = mesh_.patch_surface[at(mesh_.face_patch[at(f)])]};
-      const auto& uv = mesh_.face_uv;
-      for (std::size_t k = 0; k < 2 && !uv.empty(); ++k) {
-        arc.parameters[k] = 0.5 * (uv[2 * from + k] + uv[2 * to + k]);
-      }
-      arcs_.push_back(arc);
-    }
-  }
-
-  // What cannot be projected counts as straight.
-  [[nodiscard]] Vec3 bow_of(const Arc& arc)
-  {
-    const Vec3 chord = midpoint(mesh_.position(arc.edge[0]), mesh_.position(arc.edge[1]));
-    const auto middle = projections_.run<GeometryError>([&] {
-      return arc.curve != kNoIndex
-                 ? model_.project_to_curve(arc.curve, chord, arc.parameters[0]).xyz
-                 : model_.project_to_surface(arc.surface, chord, arc.parameters).xyz;
-    });
-    return middle.value_or(chord) - chord;
-  }
-
-  const mesh::CoarseMesh& mesh_;
-  const model::Model& model_;
-  std::vector<Arc> arcs_{};  // Ascending.
-  Attempts projections_{"middles of edges on the geometry, to make room for arcs"};
+struct Place {
+  Vec3 xyz{};
+  double worst = 0.0;  // Of the tets around.
 };
 
-double scaled_jacobian(const Vec3& u, const Vec3& v, const Vec3& w)
+// Goes uphill from `best`, to the best of the 26 places on a cube around, with shorter steps where
+// none is better. `worst_at(xyz)` is what grows.
+template <class WorstAt>
+Place climb(Place best, double distance, const WorstAt& worst_at)
 {
-  const double lengths = norm(u) * norm(v) * norm(w);
-  return lengths > 0.0 ? dot(u, cross(v, w)) / lengths : 0.0;
+  double step = kLongestStep;
+  while (step >= kShortestStep && best.worst < kEnough) {
+    const Vec3 from = best.xyz;
+    const double h = step * distance;
+    for (int number = 0; number < 27; ++number) {
+      const Vec3 to{from[0] + h * (number % 3 - 1), from[1] + h * (number / 3 % 3 - 1),
+                    from[2] + h * (number / 9 - 1)};
+      const double worst = worst_at(to);
+      if (worst > best.worst) best = {to, worst};
+    }
+    if (best.xyz == from) step *= 0.5;
+  }
+  return best;
 }
 
-enum class Sides { chords, arcs };
+// Tets that a new vertex takes the place of: it is joined with the faces around them.
+struct Cavity {
+  std::vector<LocalIndex> tets{};
+  std::vector<LocalIndex> faces{};  // 4 t + c: opposite to corner c of tet t.
+  Place vertex{.worst = -1.0};
+};
 
+// One round.
 class RoomMaker {
  public:
-  RoomMaker(mesh::CoarseMesh& mesh, const model::Model& model)
-      : mesh_(mesh),
-        geometry_(mesh),
-        stars_(rows_by_key(mesh.tet_vertices, mesh.num_vertices(), 4)),
-        bows_(at(mesh.num_tets()))
+  RoomMaker(cut::CutMesh& filled, const Arcs& arcs)
+      : mesh_(filled.mesh),
+        tet_part_(filled.tet_part),
+        arcs_(arcs),
+        geometry_(mesh_),
+        stars_(rows_by_key(mesh_.tet_vertices, mesh_.num_vertices(), 4)),
+        changes_(mesh_)
   {
-    const Arcs arcs(mesh, model);
-    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
-      const auto tet = mesh_.tet(t);
-      for (std::size_t e = 0; e < 6; ++e) {
-        const auto& [i, j] = mesh::kTetEdgeCorners[e];
-        bows_[at(t)][e] = arcs.bow(tet[i], tet[j]);
-      }
-    }
+    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) turns_.push_back(arcs.of_tet(mesh_.tet(t)));
   }
 
-  LocalIndex run()
+  LocalIndex move_vertices()
   {
     LocalIndex num_moves = 0;
     for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
@@ -145,104 +95,243 @@ class RoomMaker {
     return num_moves;
   }
 
+  // The last step of a round, as tets and vertices are others then.
+  LocalIndex insert_vertices()
+  {
+    std::vector<LocalIndex> folding;
+    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
+      if (folds(t)) folding.push_back(t);
+    }
+    if (folding.empty()) return 0;
+    neighbours_ = mesh::find_tet_neighbours(mesh_.tet_vertices, mesh_.num_vertices());
+    LocalIndex num_vertices = 0;
+    for (const LocalIndex t : folding) num_vertices += !changes_.is_gone(t) && insert(t) ? 1 : 0;
+    apply();
+    return num_vertices;
+  }
+
  private:
+  [[nodiscard]] double own_shape(LocalIndex t) const { return least_jacobian(corners_of(t), {}); }
+
+  [[nodiscard]] double with_arcs(LocalIndex t) const
+  {
+    return least_jacobian(corners_of(t), turns_[at(t)]);
+  }
+
   [[nodiscard]] bool folds(LocalIndex t) const
   {
-    const double with_arcs = jacobian(t, Sides::arcs);
-    return with_arcs < kFolding && with_arcs < kOfOwnShape * jacobian(t, Sides::chords);
+    const double jacobian = with_arcs(t);
+    return jacobian < kFolding && jacobian < kOfOwnShape * own_shape(t);
   }
 
-  // The least of a tet's corners: of the ways that its edges begin there.
-  [[nodiscard]] double jacobian(LocalIndex t, Sides sides) const
+  [[nodiscard]] std::array<Vec3, 4> corners_of(LocalIndex t) const
   {
-    const auto p = corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t);
-    std::array<std::array<Vec3, 4>, 4> way{};
-    for (std::size_t e = 0; e < 6; ++e) {
-      const auto& [i, j] = mesh::kTetEdgeCorners[e];
-      // A parabola through the middle.
-      const Vec3 turn = sides == Sides::arcs ? 4.0 * bows_[at(t)][e] : Vec3{};
-      way[i][j] = p[j] - p[i] + turn;
-      way[j][i] = p[i] - p[j] + turn;
-    }
-    return std::min({scaled_jacobian(way[0][1], way[0][2], way[0][3]),
-                     scaled_jacobian(way[1][0], way[1][3], way[1][2]),
-                     scaled_jacobian(way[2][3], way[2][0], way[2][1]),
-                     scaled_jacobian(way[3][2], way[3][1], way[3][0])});
-  }
-
-  [[nodiscard]] double worst_around(LocalIndex v, Sides sides) const
-  {
-    double worst = 1.0;
-    for (const LocalIndex t : stars_[v]) worst = std::min(worst, jacobian(t, sides));
-    return worst;
+    return corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t);
   }
 
   // Whether there was a better place for the vertex.
   bool move(LocalIndex v)
   {
     const Vec3 before = mesh_.position(v);
-    const double distance = mean_distance(v);
-    const double least_shape = std::min(worst_around(v, Sides::chords), kEnough);
-    Best best{before, worst_around(v, Sides::arcs)};
-    double step = kLongestStep;
-    while (step >= kShortestStep && best.worst < kEnough) {
-      const Best next = best_beside(v, best, step * distance, least_shape);
-      if (next.worst <= best.worst) step *= 0.5;
-      best = next;
-    }
-    place(v, best.xyz);
+    const auto around = [&](double (RoomMaker::*shape)(LocalIndex) const) {
+      double worst = 1.0;
+      for (const LocalIndex t : stars_[v]) worst = std::min(worst, (this->*shape)(t));
+      return worst;
+    };
+    const double least_shape = std::min(around(&RoomMaker::own_shape), kEnough);
+    const auto worst_at = [&](const Vec3& xyz) {
+      std::ranges::copy(xyz, &mesh_.vertex_xyz[3 * at(v)]);
+      return around(&RoomMaker::own_shape) < least_shape ? -1.0 : around(&RoomMaker::with_arcs);
+    };
+    const Place best =
+        climb({before, around(&RoomMaker::with_arcs)}, mean_distance(before, stars_[v]), worst_at);
+    std::ranges::copy(best.xyz, &mesh_.vertex_xyz[3 * at(v)]);
     return best.xyz != before;
   }
 
-  struct Best {
-    Vec3 xyz{};
-    double worst = 0.0;  // Of the tets around, with arcs.
-  };
-
-  // Of the 26 places of a cube's surface around the best so far.
-  [[nodiscard]] Best best_beside(LocalIndex v, Best best, double step, double least_shape)
+  // From a point to the corners of tets.
+  [[nodiscard]] double mean_distance(const Vec3& point, std::span<const LocalIndex> tets) const
   {
-    const Vec3 from = best.xyz;
-    for (int number = 0; number < 27; ++number) {
-      const Vec3 to{from[0] + step * (number % 3 - 1), from[1] + step * (number / 3 % 3 - 1),
-                    from[2] + step * (number / 9 - 1)};
-      place(v, to);
-      const double worst = worst_around(v, Sides::arcs);
-      if (worst > best.worst && worst_around(v, Sides::chords) >= least_shape) best = {to, worst};
+    double sum = 0.0;
+    for (const LocalIndex t : tets) {
+      for (const Vec3& corner : corners_of(t)) sum += norm(corner - point);
+    }
+    return sum / (4.0 * static_cast<double>(tets.size()));
+  }
+
+  // Whether a vertex in place of the tet and of some around leaves no fold.
+  bool insert(LocalIndex t)
+  {
+    Cavity best;
+    for (std::vector<LocalIndex>& seed : seeds(t)) {
+      Cavity grown = grow(std::move(seed));
+      if (grown.vertex.worst > best.vertex.worst) best = std::move(grown);
+    }
+    if (best.vertex.worst < kLeastOfNew) return false;
+    const LocalIndex v = mesh_.num_vertices();
+    mesh_.vertex_xyz.insert(mesh_.vertex_xyz.end(), best.vertex.xyz.begin(), best.vertex.xyz.end());
+    for (const LocalIndex face : best.faces) changes_.add(tet_on(face, v), t);
+    for (const LocalIndex gone : best.tets) changes_.remove(gone);
+    return true;
+  }
+
+  // The tet, and the tets around each of its edges inside: one that begins outside, by the tangents
+  // at its end, must go.
+  [[nodiscard]] std::vector<std::vector<LocalIndex>> seeds(LocalIndex t) const
+  {
+    std::vector<std::vector<LocalIndex>> seeds(1, {t});
+    const auto tet = mesh_.tet(t);
+    for (const auto& [i, j] : mesh::kTetEdgeCorners) {
+      if (geometry_.has_edge(tet[i], tet[j])) continue;
+      std::vector<LocalIndex> ring;
+      for (const LocalIndex around : stars_[tet[i]]) {
+        if (std::ranges::count(mesh_.tet(around), tet[j]) != 0) ring.push_back(around);
+      }
+      if (std::ranges::all_of(ring, [&](LocalIndex one) { return can_join(one, t); })) {
+        seeds.push_back(std::move(ring));
+      }
+    }
+    return seeds;
+  }
+
+  // The best of the cavities that come of joining what lies behind the worst new tet.
+  [[nodiscard]] Cavity grow(std::vector<LocalIndex> tets) const
+  {
+    Cavity best;
+    Cavity now{.tets = std::move(tets)};
+    for (const LocalIndex t : now.tets) {
+      now.vertex.xyz = now.vertex.xyz
+                       + (1.0 / static_cast<double>(now.tets.size())) * tet_centroid(corners_of(t));
+    }
+    while (now.tets.size() <= kMostTets) {
+      find_faces(now);
+      const LocalIndex worst_face = place_vertex(now);
+      if (now.vertex.worst > best.vertex.worst && keeps_all(now)) best = now;
+      if (now.vertex.worst >= kEnough || !can_cross(worst_face)) break;
+      now.tets.push_back(neighbours_[at(worst_face)] / 4);
     }
     return best;
   }
 
-  [[nodiscard]] double mean_distance(LocalIndex v) const
+  void find_faces(Cavity& cavity) const
   {
-    double sum = 0.0;
-    for (const LocalIndex t : stars_[v]) {
-      for (const LocalIndex other : mesh_.tet(t)) {
-        sum += norm(mesh_.position(other) - mesh_.position(v));
+    cavity.faces.clear();
+    for (const LocalIndex t : cavity.tets) {
+      for (LocalIndex face = 4 * t; face < 4 * t + 4; ++face) {
+        const LocalIndex across = neighbours_[at(face)];
+        if (across == kNoIndex || std::ranges::count(cavity.tets, across / 4) == 0) {
+          cavity.faces.push_back(face);
+        }
       }
     }
-    return sum / (3.0 * static_cast<double>(stars_[v].size()));
   }
 
-  void place(LocalIndex v, const Vec3& xyz)
+  // The face of the worst new tet then.
+  [[nodiscard]] LocalIndex place_vertex(Cavity& cavity) const
   {
-    std::ranges::copy(xyz, &mesh_.vertex_xyz[3 * at(v)]);
+    std::vector<std::array<Vec3, 4>> corners;
+    std::vector<Turns> turns;
+    for (const LocalIndex face : cavity.faces) {
+      const Tet tet = tet_on(face, kNoIndex);
+      corners.push_back({mesh_.position(tet[0]), mesh_.position(tet[1]), mesh_.position(tet[2])});
+      turns.push_back(arcs_.of_tet(tet));
+    }
+    std::size_t worst_row = 0;
+    const auto worst_at = [&](const Vec3& xyz) {
+      double worst = 1.0;
+      for (std::size_t row = 0; row < corners.size(); ++row) {
+        corners[row][3] = xyz;
+        const double jacobian =
+            std::min(least_jacobian(corners[row], {}), least_jacobian(corners[row], turns[row]));
+        if (jacobian >= worst) continue;
+        worst = jacobian;
+        worst_row = row;
+      }
+      return worst;
+    };
+    const Vec3 from = cavity.vertex.xyz;
+    cavity.vertex = climb({from, worst_at(from)}, mean_distance(from, cavity.tets), worst_at);
+    static_cast<void>(worst_at(cavity.vertex.xyz));
+    return cavity.faces[worst_row];
+  }
+
+  // The tet of a vertex inside the cavity on one of its faces.
+  [[nodiscard]] Tet tet_on(LocalIndex face, LocalIndex v) const
+  {
+    const auto tet = mesh_.tet(face / 4);
+    const auto& [a, b, c] = mesh::kTetFaceCorners[at(face % 4)];
+    return {tet[a], tet[c], tet[b], v};
+  }
+
+  // Whether what lies behind a face may join a cavity of its tet.
+  [[nodiscard]] bool can_cross(LocalIndex face) const
+  {
+    if (neighbours_[at(face)] == kNoIndex) return false;
+    const Tet tet = tet_on(face, kNoIndex);
+    return geometry_.patch_of(tet[0], tet[1], tet[2]) == kNoIndex
+           && can_join(neighbours_[at(face)] / 4, face / 4);
+  }
+
+  [[nodiscard]] bool can_join(LocalIndex t, LocalIndex other) const
+  {
+    return !changes_.is_gone(t) && mesh_.tet_material[at(t)] == mesh_.tet_material[at(other)]
+           && (tet_part_.empty() || tet_part_[at(t)] == tet_part_[at(other)]);
+  }
+
+  // No vertex is lost, nor an edge on the geometry.
+  [[nodiscard]] bool keeps_all(const Cavity& cavity) const
+  {
+    const auto is_on_face = [&](LocalIndex a, LocalIndex b) {
+      return std::ranges::any_of(cavity.faces, [&](LocalIndex face) {
+        const Tet tet = tet_on(face, kNoIndex);
+        return std::ranges::count(tet, a) != 0 && std::ranges::count(tet, b) != 0;
+      });
+    };
+    return std::ranges::all_of(cavity.tets, [&](LocalIndex t) {
+      const auto tet = mesh_.tet(t);
+      return std::ranges::all_of(mesh::kTetEdgeCorners, [&](const auto& ends) {
+        const LocalIndex a = tet[ends[0]];
+        const LocalIndex b = tet[ends[1]];
+        return geometry_.has_edge(a, b) ? is_on_face(a, b) : is_on_face(a, a) && is_on_face(b, b);
+      });
+    });
+  }
+
+  void apply()
+  {
+    const std::vector<LocalIndex> rows = changes_.apply(mesh_);
+    if (tet_part_.empty()) return;
+    std::vector<LocalIndex> parts;
+    for (const LocalIndex t : rows) parts.push_back(tet_part_[at(t)]);
+    tet_part_ = std::move(parts);
   }
 
   mesh::CoarseMesh& mesh_;
+  std::vector<LocalIndex>& tet_part_;
+  const Arcs& arcs_;
   Geometry geometry_;
   IndexLists stars_;
-  std::vector<std::array<Vec3, 6>> bows_;  // Of each tet's edges.
+  TetChanges changes_;
+  std::vector<Turns> turns_{};            // Shape (num_tets).
+  std::vector<LocalIndex> neighbours_{};  // Of find_tet_neighbours().
 };
 
 }  // namespace
 
-LocalIndex make_room_for_arcs(mesh::CoarseMesh& mesh, const model::Model& model)
+LocalIndex make_room_for_arcs(cut::CutMesh& filled, const model::Model& model)
 {
   if (is_left_out(Repair::room_for_arcs)) return 0;
-  const LocalIndex num_moves = RoomMaker(mesh, model).run();
-  note_repair(Repair::room_for_arcs, num_moves);
-  return num_moves;
+  const Arcs arcs(filled.mesh, model);
+  LocalIndex num_changes = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    RoomMaker maker(filled, arcs);
+    num_changes += maker.move_vertices();
+    const LocalIndex num_vertices = maker.insert_vertices();
+    num_changes += num_vertices;
+    if (num_vertices == 0) break;
+  }
+  note_repair(Repair::room_for_arcs, num_changes);
+  return num_changes;
 }
 
 }  // namespace tessera::coarse

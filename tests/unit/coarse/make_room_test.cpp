@@ -29,7 +29,8 @@ auto arches(double height)
 }
 
 struct MakeRoom : ::testing::Test {
-  mesh::CoarseMesh cube = testing::kuhn_cube(4);
+  cut::CutMesh filled{.mesh = testing::kuhn_cube(4)};
+  mesh::CoarseMesh& cube = filled.mesh;
 
   // Tets with a child in a corner, after ten levels, that is not positive.
   [[nodiscard]] int num_folded(double height) const
@@ -58,13 +59,13 @@ TEST_F(MakeRoom, MovesVerticesThatChildrenOfFineLevelsWouldFoldAt)
   ASSERT_GT(num_folded(kHeight), 0);
   const FlatArray<double> before = cube.vertex_xyz;
   const testing::GraphModel model(arches(kHeight));
-  EXPECT_GT(make_room_for_arcs(cube, model), 0);
+  EXPECT_GT(make_room_for_arcs(filled, model), 0);
   EXPECT_EQ(num_folded(kHeight), 0);
   EXPECT_NO_THROW(mesh::validate(cube));
   for (const LocalIndex v : cube.face_vertices) {
     EXPECT_EQ(cube.position(v), point_at(std::span<const double>(before), v));
   }
-  EXPECT_EQ(make_room_for_arcs(cube, model), 0) << "all have room";
+  EXPECT_EQ(make_room_for_arcs(filled, model), 0) << "all have room";
 }
 
 TEST_F(MakeRoom, LeavesTetsThatHaveRoom)
@@ -72,7 +73,7 @@ TEST_F(MakeRoom, LeavesTetsThatHaveRoom)
   const FlatArray<double> before = cube.vertex_xyz;
   for (const double height : {-0.07, 0.0, 0.04}) {
     ASSERT_EQ(num_folded(height), 0);
-    EXPECT_EQ(make_room_for_arcs(cube, testing::GraphModel(arches(height))), 0);
+    EXPECT_EQ(make_room_for_arcs(filled, testing::GraphModel(arches(height))), 0);
   }
   EXPECT_EQ(cube.vertex_xyz, before);
 }

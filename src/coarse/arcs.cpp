@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse/arcs.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+constexpr double kSteepest = 1.6;  // Slope of a parabola for an arc of about 155 degrees.
+
+// An edge with what it lies on.
+struct Side {
+  std::array<LocalIndex, 2> edge{};  // Ascending.
+  LocalIndex curve = kNoIndex;
+  LocalIndex surface = kNoIndex;          // Unless there is a curve.
+  model::SurfaceParameters parameters{};  // Near the middle; a curve has the first only.
+};
+
+Side side_of_segment(const mesh::CoarseMesh& mesh, LocalIndex s)
+{
+  const std::size_t from = 2 * at(s);
+  Side side{.edge = mesh::sorted_edge(mesh.segment_vertices[from], mesh.segment_vertices[from + 1]),
+            .curve = mesh.segment_curve[at(s)]};
+  const auto& t = mesh.segment_t;
+  if (!t.empty()) side.parameters[0] = 0.5 * (t[from] + t[from + 1]);
+  return side;
+}
+
+Side side_of_face(const mesh::CoarseMesh& mesh, LocalIndex f, std::size_t corner)
+{
+  const std::size_t from = 3 * at(f) + corner;
+  const std::size_t to = 3 * at(f) + (corner + 1) % 3;
+  Side side{.edge = mesh::sorted_edge(mesh.face_vertices[from], mesh.face_vertices[to]),
+            .surface = mesh.patch_surface[at(mesh.face_patch[at(f)])]};
+  const auto& uv = mesh.face_uv;
+  for (std::size_t k = 0; k < 2 && !uv.empty(); ++k) {
+    side.parameters[k] = 0.5 * (uv[2 * from + k] + uv[2 * to + k]);
+  }
+  return side;
+}
+
+// Each edge once, ascending. A curve goes before the surfaces that it bounds.
+std::vector<Side> sides_of(const mesh::CoarseMesh& mesh)
+{
+  std::vector<Side> sides;
+  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) sides.push_back(side_of_segment(mesh, s));
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      sides.push_back(side_of_face(mesh, f, corner));
+    }
+  }
+  std::ranges::stable_sort(sides, {}, &Side::edge);
+  const auto again = std::ranges::unique(sides, {}, &Side::edge);
+  sides.erase(again.begin(), again.end());
+  return sides;
+}
+
+// Of the circle through both ends of a chord and a point beside its middle.
+Vec3 turn(const Vec3& chord, const Vec3& bow)
+{
+  const double slope = std::min(4.0 * norm(bow) / norm(chord), kSteepest);
+  return (4.0 / (1.0 - 0.25 * slope * slope)) * bow;
+}
+
+double scaled_jacobian(const Vec3& u, const Vec3& v, const Vec3& w)
+{
+  const double lengths = norm(u) * norm(v) * norm(w);
+  return lengths > 0.0 ? dot(u, cross(v, w)) / lengths : 0.0;
+}
+
+}  // namespace
+
+Arcs::Arcs(const mesh::CoarseMesh& mesh, const model::Model& model)
+{
+  Attempts projections("middles of edges on the geometry, to make room for arcs");
+  for (const Side& side : sides_of(mesh)) {
+    const Vec3 chord = midpoint(mesh.position(side.edge[0]), mesh.position(side.edge[1]));
+    const auto middle = projections.run<GeometryError>([&] {
+      return side.curve != kNoIndex
+                 ? model.project_to_curve(side.curve, chord, side.parameters[0]).xyz
+                 : model.project_to_surface(side.surface, chord, side.parameters).xyz;
+    });
+    const Vec3 along = mesh.position(side.edge[1]) - mesh.position(side.edge[0]);
+    arcs_.push_back({side.edge, turn(along, middle.value_or(chord) - chord)});
+  }
+}
+
+Turns Arcs::of_tet(std::span<const LocalIndex, 4> tet) const
+{
+  Turns turns{};
+  for (std::size_t e = 0; e < turns.size(); ++e) {
+    const auto& [i, j] = mesh::kTetEdgeCorners[e];
+    const auto edge = mesh::sorted_edge(tet[i], tet[j]);
+    const auto arc = std::ranges::lower_bound(arcs_, edge, {}, &Arc::edge);
+    if (arc != arcs_.end() && arc->edge == edge) turns[e] = arc->turn;
+  }
+  return turns;
+}
+
+double least_jacobian(const std::array<Vec3, 4>& corners, const Turns& turns)
+{
+  std::array<std::array<Vec3, 4>, 4> way{};
+  for (std::size_t e = 0; e < turns.size(); ++e) {
+    const auto& [i, j] = mesh::kTetEdgeCorners[e];
+    way[i][j] = corners[j] - corners[i] + turns[e];
+    way[j][i] = corners[i] - corners[j] + turns[e];
+  }
+  return std::min({scaled_jacobian(way[0][1], way[0][2], way[0][3]),
+                   scaled_jacobian(way[1][0], way[1][3], way[1][2]),
+                   scaled_jacobian(way[2][3], way[2][0], way[2][1]),
+                   scaled_jacobian(way[3][2], way[3][1], way[3][0])});
+}
+
+}  // namespace tessera::coarse
