@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "tessera/base/arc.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -11,7 +12,11 @@
 namespace tessera::coarse {
 namespace {
 
-constexpr double kSteepest = 1.6;  // Slope of a parabola for an arc of about 155 degrees.
+// In parts of the chord: lower arcs turn by less than 5 degrees, so no end needs to be looked at.
+constexpr double kFlat = 0.01;
+
+// In parts of the arc's height: ends farther off are not on the geometry.
+constexpr double kOfHeight = 0.1;
 
 // An edge with what it lies on.
 struct Side {
@@ -55,16 +60,31 @@ std::vector<Side> sides_of(const mesh::CoarseMesh& mesh)
     }
   }
   std::ranges::stable_sort(sides, {}, &Side::edge);
-  const auto again = std::ranges::unique(sides, {}, &Side::edge);
-  sides.erase(again.begin(), again.end());
+  const auto is_same = [](const Side& one, const Side& other) { return one.edge == other.edge; };
+  sides.erase(std::unique(sides.begin(), sides.end(), is_same), sides.end());
   return sides;
 }
 
-// Of the circle through both ends of a chord and a point beside its middle.
-Vec3 turn(const Vec3& chord, const Vec3& bow)
+// From a point to what the side lies on.
+Vec3 way_onto(const model::Model& model, const Side& side, const Vec3& point)
 {
-  const double slope = std::min(4.0 * norm(bow) / norm(chord), kSteepest);
-  return (4.0 / (1.0 - 0.25 * slope * slope)) * bow;
+  return (side.curve != kNoIndex
+              ? model.project_to_curve(side.curve, point, side.parameters[0]).xyz
+              : model.project_to_surface(side.surface, point, side.parameters).xyz)
+         - point;
+}
+
+// From the middle of the chord. A side with an end off the geometry, as beside what was merged, is
+// no arc.
+Vec3 bow_of(const model::Model& model, const Side& side, const Vec3& from, const Vec3& to)
+{
+  const Vec3 bow = way_onto(model, side, midpoint(from, to));
+  const double height = norm(bow);
+  if (height < kFlat * norm(to - from)) return bow;
+  const auto is_on = [&](const Vec3& end) {
+    return norm(way_onto(model, side, end)) < kOfHeight * height;
+  };
+  return is_on(from) && is_on(to) ? bow : Vec3{};
 }
 
 double scaled_jacobian(const Vec3& u, const Vec3& v, const Vec3& w)
@@ -79,14 +99,10 @@ Arcs::Arcs(const mesh::CoarseMesh& mesh, const model::Model& model)
 {
   Attempts projections("middles of edges on the geometry, to make room for arcs");
   for (const Side& side : sides_of(mesh)) {
-    const Vec3 chord = midpoint(mesh.position(side.edge[0]), mesh.position(side.edge[1]));
-    const auto middle = projections.run<GeometryError>([&] {
-      return side.curve != kNoIndex
-                 ? model.project_to_curve(side.curve, chord, side.parameters[0]).xyz
-                 : model.project_to_surface(side.surface, chord, side.parameters).xyz;
-    });
-    const Vec3 along = mesh.position(side.edge[1]) - mesh.position(side.edge[0]);
-    arcs_.push_back({side.edge, turn(along, middle.value_or(chord) - chord)});
+    const Vec3 from = mesh.position(side.edge[0]);
+    const Vec3 to = mesh.position(side.edge[1]);
+    const auto bow = projections.run<GeometryError>([&] { return bow_of(model, side, from, to); });
+    arcs_.push_back({side.edge, arc_turn(to - from, bow.value_or(Vec3{}))});
   }
 }
 

@@ -25,6 +25,7 @@ namespace {
 // and left as many folds.
 constexpr double kFolding = 0.01;
 constexpr double kEnough = 0.1;
+constexpr double kFairShape = 0.2;
 
 // A tet whose own shape is not much better than with arcs is not theirs to mend.
 constexpr double kOfOwnShape = 0.9;
@@ -34,8 +35,8 @@ constexpr double kLongestStep = 0.25;
 constexpr double kShortestStep = 0.01;
 
 constexpr int kRounds = 4;             // Of moves and new vertices.
-constexpr std::size_t kMostTets = 24;  // That a new vertex takes the place of.
-constexpr double kLeastOfNew = 0.03;   // Of the tets around a new vertex.
+constexpr std::size_t kMostTets = 16;  // That a new vertex takes the place of.
+constexpr double kLeastOfNew = 0.1;    // Of the tets around a new vertex.
 
 struct Place {
   Vec3 xyz{};
@@ -43,7 +44,7 @@ struct Place {
 };
 
 // Goes uphill from `best`, to the best of the 26 places on a cube around, with shorter steps where
-// none is better. `worst_at(xyz)` is what grows.
+// none is better. `worst_at(xyz, bound)` is what grows; anything up to `bound` if it is not more.
 template <class WorstAt>
 Place climb(Place best, double distance, const WorstAt& worst_at)
 {
@@ -54,7 +55,7 @@ Place climb(Place best, double distance, const WorstAt& worst_at)
     for (int number = 0; number < 27; ++number) {
       const Vec3 to{from[0] + h * (number % 3 - 1), from[1] + h * (number / 3 % 3 - 1),
                     from[2] + h * (number / 9 - 1)};
-      const double worst = worst_at(to);
+      const double worst = worst_at(to, best.worst);
       if (worst > best.worst) best = {to, worst};
     }
     if (best.xyz == from) step *= 0.5;
@@ -95,17 +96,21 @@ class RoomMaker {
     return num_moves;
   }
 
-  // The last step of a round, as tets and vertices are others then.
-  LocalIndex insert_vertices()
+  // The last step of a round, as tets and vertices are others then. `is_near`: shape
+  // (num_vertices), those whose tets are tried; then those whose tets have changed.
+  LocalIndex insert_vertices(std::vector<char>& is_near)
   {
     std::vector<LocalIndex> folding;
     for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
-      if (folds(t)) folding.push_back(t);
+      if (folds(t) && has_one_of(is_near, t)) folding.push_back(t);
     }
     if (folding.empty()) return 0;
     neighbours_ = mesh::find_tet_neighbours(mesh_.tet_vertices, mesh_.num_vertices());
     LocalIndex num_vertices = 0;
-    for (const LocalIndex t : folding) num_vertices += !changes_.is_gone(t) && insert(t) ? 1 : 0;
+    std::ranges::fill(is_near, 0);
+    for (const LocalIndex t : folding) {
+      if (!changes_.is_gone(t) && insert(t, is_near)) ++num_vertices;
+    }
     apply();
     return num_vertices;
   }
@@ -124,6 +129,11 @@ class RoomMaker {
     return jacobian < kFolding && jacobian < kOfOwnShape * own_shape(t);
   }
 
+  [[nodiscard]] bool has_one_of(const std::vector<char>& vertices, LocalIndex t) const
+  {
+    return std::ranges::any_of(mesh_.tet(t), [&](LocalIndex v) { return vertices[at(v)] != 0; });
+  }
+
   [[nodiscard]] std::array<Vec3, 4> corners_of(LocalIndex t) const
   {
     return corners_at<4>(mesh_.vertex_xyz, mesh_.tet_vertices, t);
@@ -133,18 +143,22 @@ class RoomMaker {
   bool move(LocalIndex v)
   {
     const Vec3 before = mesh_.position(v);
-    const auto around = [&](double (RoomMaker::*shape)(LocalIndex) const) {
+    const auto around = [&](double (RoomMaker::*shape)(LocalIndex) const, double bound) {
       double worst = 1.0;
-      for (const LocalIndex t : stars_[v]) worst = std::min(worst, (this->*shape)(t));
+      for (const LocalIndex t : stars_[v]) {
+        worst = std::min(worst, (this->*shape)(t));
+        if (worst <= bound) break;
+      }
       return worst;
     };
-    const double least_shape = std::min(around(&RoomMaker::own_shape), kEnough);
-    const auto worst_at = [&](const Vec3& xyz) {
+    const double least_shape = std::min(around(&RoomMaker::own_shape, -1.0), kFairShape);
+    const auto worst_at = [&](const Vec3& xyz, double bound) {
       std::ranges::copy(xyz, &mesh_.vertex_xyz[3 * at(v)]);
-      return around(&RoomMaker::own_shape) < least_shape ? -1.0 : around(&RoomMaker::with_arcs);
+      const double worst = around(&RoomMaker::with_arcs, bound);
+      return worst <= bound || around(&RoomMaker::own_shape, -1.0) >= least_shape ? worst : -1.0;
     };
-    const Place best =
-        climb({before, around(&RoomMaker::with_arcs)}, mean_distance(before, stars_[v]), worst_at);
+    const Place best = climb({before, around(&RoomMaker::with_arcs, -1.0)},
+                             mean_distance(before, stars_[v]), worst_at);
     std::ranges::copy(best.xyz, &mesh_.vertex_xyz[3 * at(v)]);
     return best.xyz != before;
   }
@@ -160,7 +174,7 @@ class RoomMaker {
   }
 
   // Whether a vertex in place of the tet and of some around leaves no fold.
-  bool insert(LocalIndex t)
+  bool insert(LocalIndex t, std::vector<char>& is_near)
   {
     Cavity best;
     for (std::vector<LocalIndex>& seed : seeds(t)) {
@@ -171,7 +185,11 @@ class RoomMaker {
     const LocalIndex v = mesh_.num_vertices();
     mesh_.vertex_xyz.insert(mesh_.vertex_xyz.end(), best.vertex.xyz.begin(), best.vertex.xyz.end());
     for (const LocalIndex face : best.faces) changes_.add(tet_on(face, v), t);
-    for (const LocalIndex gone : best.tets) changes_.remove(gone);
+    is_near.push_back(1);
+    for (const LocalIndex gone : best.tets) {
+      changes_.remove(gone);
+      for (const LocalIndex corner : mesh_.tet(gone)) is_near[at(corner)] = 1;
+    }
     return true;
   }
 
@@ -236,13 +254,15 @@ class RoomMaker {
       corners.push_back({mesh_.position(tet[0]), mesh_.position(tet[1]), mesh_.position(tet[2])});
       turns.push_back(arcs_.of_tet(tet));
     }
-    std::size_t worst_row = 0;
-    const auto worst_at = [&](const Vec3& xyz) {
-      double worst = 1.0;
-      for (std::size_t row = 0; row < corners.size(); ++row) {
-        corners[row][3] = xyz;
-        const double jacobian =
-            std::min(least_jacobian(corners[row], {}), least_jacobian(corners[row], turns[row]));
+    std::size_t worst_row = 0;  // Tried first, as it mostly is the worst again.
+    const auto jacobian_on = [&](std::size_t row, const Vec3& xyz) {
+      corners[row][3] = xyz;
+      return std::min(least_jacobian(corners[row], {}), least_jacobian(corners[row], turns[row]));
+    };
+    const auto worst_at = [&](const Vec3& xyz, double bound) {
+      double worst = jacobian_on(worst_row, xyz);
+      for (std::size_t row = 0; row < corners.size() && worst > bound; ++row) {
+        const double jacobian = jacobian_on(row, xyz);
         if (jacobian >= worst) continue;
         worst = jacobian;
         worst_row = row;
@@ -250,8 +270,8 @@ class RoomMaker {
       return worst;
     };
     const Vec3 from = cavity.vertex.xyz;
-    cavity.vertex = climb({from, worst_at(from)}, mean_distance(from, cavity.tets), worst_at);
-    static_cast<void>(worst_at(cavity.vertex.xyz));
+    cavity.vertex = climb({from, worst_at(from, -1.0)}, mean_distance(from, cavity.tets), worst_at);
+    static_cast<void>(worst_at(cavity.vertex.xyz, -1.0));
     return cavity.faces[worst_row];
   }
 
@@ -322,11 +342,12 @@ LocalIndex make_room_for_arcs(cut::CutMesh& filled, const model::Model& model)
 {
   if (is_left_out(Repair::room_for_arcs)) return 0;
   const Arcs arcs(filled.mesh, model);
+  std::vector<char> is_near(at(filled.mesh.num_vertices()), 1);
   LocalIndex num_changes = 0;
   for (int round = 0; round < kRounds; ++round) {
     RoomMaker maker(filled, arcs);
     num_changes += maker.move_vertices();
-    const LocalIndex num_vertices = maker.insert_vertices();
+    const LocalIndex num_vertices = maker.insert_vertices(is_near);
     num_changes += num_vertices;
     if (num_vertices == 0) break;
   }

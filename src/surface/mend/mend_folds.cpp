@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/arc.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
@@ -37,6 +38,7 @@ constexpr double kLeastCosine = 0.2;
 // Of the quarter of its parent's area that a child should have. Less is a needle: an arc is nearly
 // as high as the triangle beside it.
 constexpr double kLeastShare = 0.25;
+constexpr double kFolded = 0.02;  // The same of a fold: two sides on one circle are rounded.
 
 // In parts of its length: an edge whose middle is off the geometry by less is straight.
 constexpr double kStraight = 1e-6;
@@ -81,12 +83,12 @@ class FoldMender {
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       if (!surface_.is_triangle(t)) continue;
       const double share = smallest_share(surface_.triangle(t), surface_.patch(t));
-      if (share <= least_share_ && !(share > 0.0 && is_at_a_tip(t))) found_.push_back(t);
-      has_folds_ = has_folds_ || share <= 0.0;
+      if (share <= least_share_ && !(share > kFolded && is_at_a_tip(t))) found_.push_back(t);
+      has_folds_ = has_folds_ || share <= kFolded;
     }
   }
 
-  [[nodiscard]] bool looks_for_needles() const { return least_share_ > 0.0; }
+  [[nodiscard]] bool looks_for_needles() const { return least_share_ > kFolded; }
   [[nodiscard]] LocalIndex num_found() const { return static_cast<LocalIndex>(found_.size()); }
   [[nodiscard]] bool has_folds() const { return has_folds_; }
 
@@ -182,12 +184,52 @@ class FoldMender {
   // Of the area that a child should have, seen along the normal; below 0 one looks the other way.
   [[nodiscard]] double smallest_share(const Triangle& v, LocalIndex group)
   {
+    const double of_children = share_of_children(v, group);
+    const double of_corners = share_of_corners(v, group);
+    return of_corners <= kFolded ? std::min(of_children, of_corners) : of_children;
+  }
+
+  // Of the first level.
+  [[nodiscard]] double share_of_children(const Triangle& v, LocalIndex group)
+  {
     const Vec3 normal = normal_of(corners(v));
     double smallest = std::numeric_limits<double>::infinity();
     for (const Corners& child : children(v, group)) {
-      smallest = std::min(smallest, 4.0 * dot(normal_of(child), normal));
+      smallest = std::min(smallest, 4.0 * dot(normal_of(child), normal) / dot(normal, normal));
     }
-    return smallest <= 0.0 ? smallest : smallest / dot(normal, normal);
+    return smallest;
+  }
+
+  // The more levels there are, the closer the children in the corners follow the tangents there.
+  [[nodiscard]] double share_of_corners(const Triangle& v, LocalIndex group)
+  {
+    const Corners p = corners(v);
+    const Vec3 normal = normal_of(p);
+    std::array<Vec3, 3> turns{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Edge side = mesh::sorted_edge(v[c], v[(c + 1) % 3]);
+      turns[c] = arc_turn(p[(c + 1) % 3] - p[c], middle_of(side, group) - chord(side));
+    }
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const LocalIndex before = v[(c + 2) % 3];
+      const Vec3 next = p[(c + 1) % 3] - p[c];
+      const Vec3 last = p[(c + 2) % 3] - p[c];
+      if (dot(next, last) > 0.0 && are_on_two_curves({before, v[c]}, {v[c], v[(c + 1) % 3]})) {
+        continue;
+      }
+      const Vec3 area = cross(next + turns[c], last + turns[(c + 2) % 3]);
+      smallest = std::min(smallest, dot(area, normal) / dot(normal, normal));
+    }
+    return smallest;
+  }
+
+  // What is narrow between them is the model's.
+  [[nodiscard]] bool are_on_two_curves(const Edge& one, const Edge& other) const
+  {
+    const LocalIndex curve = surface_.curve(one[0], one[1]);
+    const LocalIndex next = surface_.curve(other[0], other[1]);
+    return curve != kNoIndex && next != kNoIndex && curve != next;
   }
 
   [[nodiscard]] bool is_sound(const Triangle& v, LocalIndex group)
@@ -307,7 +349,7 @@ class FoldMender {
   Attempts projections_{"middles of edges on the geometry, to find folds"};
   std::vector<LocalIndex> found_{};
   bool has_folds_ = false;
-  double least_share_ = 0.0;        // What a child must have more of.
+  double least_share_ = kFolded;    // What a child must have more of.
   std::set<LocalIndex> touched_{};  // Triangles that this round has changed.
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,67 +17,93 @@
 namespace tessera::coarse {
 namespace {
 
-constexpr double kCell = 0.25;
-
-// A parabola over each of the four cells in the middle, nothing at its ends. The vertices above
-// them are off the geometry.
-auto arches(double height)
+// Of the bottom, over kuhn_cube(4): a parabola over each of the four cells in the middle. The
+// vertices above them are off the geometry.
+testing::GraphModel::Height arches(double height)
 {
   return [height](double x, double y) {
-    if (std::max(std::abs(x - 0.5), std::abs(y - 0.5)) > kCell) return 0.0;
-    const double s = x / kCell - std::floor(x / kCell);
+    if (std::max(std::abs(x - 0.5), std::abs(y - 0.5)) > 0.25) return 0.0;
+    const double s = 4.0 * x - std::floor(4.0 * x);
     return 4.0 * height * s * (1.0 - s);
   };
 }
 
-struct MakeRoom : ::testing::Test {
-  cut::CutMesh filled{.mesh = testing::kuhn_cube(4)};
-  mesh::CoarseMesh& cube = filled.mesh;
+// Over kuhn_cube(1): a parabola over the diagonal of the bottom, nothing over its sides.
+double ridge(double x, double y) { return 1.05 * std::min(x, y) * (1.0 - std::max(x, y)); }
 
-  // Tets with a child in a corner, after ten levels, that is not positive.
-  [[nodiscard]] int num_folded(double height) const
-  {
-    const auto is_folded = [&](const std::array<Vec3, 4>& tet, std::size_t corner) {
-      std::array<Vec3, 4> child = tet;
-      for (Vec3& point : child) {
-        const bool is_on_bottom = point[2] == 0.0 && tet[corner][2] == 0.0;
-        point = tet[corner] + (1.0 / 1024.0) * (point - tet[corner]);
-        if (is_on_bottom) point[2] = arches(height)(point[0], point[1]);
-      }
-      return !(tet_volume(child) > 0.0);
-    };
-    int num = 0;
-    for (LocalIndex t = 0; t < cube.num_tets(); ++t) {
-      const auto tet = corners_at<4>(cube.vertex_xyz, cube.tet_vertices, t);
-      for (std::size_t corner = 0; corner < 4; ++corner) num += is_folded(tet, corner) ? 1 : 0;
-    }
-    return num;
-  }
-};
-
-TEST_F(MakeRoom, MovesVerticesThatChildrenOfFineLevelsWouldFoldAt)
+// Corners of tets whose child there, after ten levels, is not positive.
+int num_folded(const mesh::CoarseMesh& mesh, const testing::GraphModel::Height& height)
 {
-  constexpr double kHeight = 0.07;
-  ASSERT_GT(num_folded(kHeight), 0);
-  const FlatArray<double> before = cube.vertex_xyz;
-  const testing::GraphModel model(arches(kHeight));
+  const auto is_folded = [&](const std::array<Vec3, 4>& tet, const Vec3& corner) {
+    std::array<Vec3, 4> child = tet;
+    for (Vec3& point : child) {
+      const bool is_on_bottom = point[2] == 0.0 && corner[2] == 0.0;
+      point = corner + (1.0 / 1024.0) * (point - corner);
+      if (is_on_bottom) point[2] = height(point[0], point[1]);
+    }
+    return !(tet_volume(child) > 0.0);
+  };
+  int num = 0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    const auto tet = corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t);
+    for (const Vec3& corner : tet) num += is_folded(tet, corner) ? 1 : 0;
+  }
+  return num;
+}
+
+TEST(MakeRoom, MovesVerticesWhereChildrenOfFineLevelsWouldFold)
+{
+  cut::CutMesh filled{.mesh = testing::kuhn_cube(4)};
+  const mesh::CoarseMesh before = filled.mesh;
+  ASSERT_GT(num_folded(before, arches(0.07)), 0);
+  const testing::GraphModel model(arches(0.07));
   EXPECT_GT(make_room_for_arcs(filled, model), 0);
-  EXPECT_EQ(num_folded(kHeight), 0);
-  EXPECT_NO_THROW(mesh::validate(cube));
-  for (const LocalIndex v : cube.face_vertices) {
-    EXPECT_EQ(cube.position(v), point_at(std::span<const double>(before), v));
+  EXPECT_EQ(num_folded(filled.mesh, arches(0.07)), 0);
+  EXPECT_NO_THROW(mesh::validate(filled.mesh));
+  EXPECT_EQ(filled.mesh.tet_vertices, before.tet_vertices);
+  for (const LocalIndex v : before.face_vertices) {
+    EXPECT_EQ(filled.mesh.position(v), before.position(v));
   }
   EXPECT_EQ(make_room_for_arcs(filled, model), 0) << "all have room";
 }
 
-TEST_F(MakeRoom, LeavesTetsThatHaveRoom)
+TEST(MakeRoom, PutsAVertexWhereAnEdgeInsideBeginsOutside)
 {
-  const FlatArray<double> before = cube.vertex_xyz;
+  cut::CutMesh filled{.mesh = testing::kuhn_cube(1)};
+  const mesh::CoarseMesh before = filled.mesh;
+  filled.tet_part.assign(at(before.num_tets()), 3);
+  ASSERT_GT(num_folded(before, ridge), 0);
+  EXPECT_EQ(make_room_for_arcs(filled, testing::GraphModel(ridge)), 1);
+  EXPECT_EQ(num_folded(filled.mesh, ridge), 0);
+  EXPECT_NO_THROW(mesh::validate(filled.mesh));
+  EXPECT_EQ(filled.mesh.num_vertices(), before.num_vertices() + 1);
+  EXPECT_EQ(filled.mesh.face_vertices, before.face_vertices);
+  EXPECT_EQ(filled.tet_part, std::vector<LocalIndex>(at(filled.mesh.num_tets()), 3));
+}
+
+TEST(MakeRoom, NoTetOfAnotherPartIsTaken)
+{
+  cut::CutMesh filled{.mesh = testing::kuhn_cube(1)};
+  const mesh::CoarseMesh before = filled.mesh;
+  for (LocalIndex t = 0; t < before.num_tets(); ++t) filled.tet_part.push_back(t);
+  make_room_for_arcs(filled, testing::GraphModel(ridge));
+  std::vector<double> volumes(at(before.num_tets()), 0.0);
+  for (std::size_t t = 0; t < filled.tet_part.size(); ++t) {
+    volumes[at(filled.tet_part[t])] +=
+        tet_volume(corners_at<4>(filled.mesh.vertex_xyz, filled.mesh.tet_vertices, t));
+  }
+  for (const double volume : volumes) EXPECT_NEAR(volume, 1.0 / 6.0, 1e-12);
+}
+
+TEST(MakeRoom, LeavesTetsThatHaveRoom)
+{
+  cut::CutMesh filled{.mesh = testing::kuhn_cube(4)};
+  const mesh::CoarseMesh before = filled.mesh;
   for (const double height : {-0.07, 0.0, 0.04}) {
-    ASSERT_EQ(num_folded(height), 0);
+    ASSERT_EQ(num_folded(before, arches(height)), 0);
     EXPECT_EQ(make_room_for_arcs(filled, testing::GraphModel(arches(height))), 0);
   }
-  EXPECT_EQ(cube.vertex_xyz, before);
+  EXPECT_EQ(filled.mesh.vertex_xyz, before.vertex_xyz);
 }
 
 }  // namespace

@@ -238,8 +238,17 @@ TEST(MendFolds, LeavesASoundSurfaceAsItIs)
   const CoarseSurface before = surface;
   EXPECT_EQ(mend_folds(surface, testing::SphereModel({1.0})).num_before, 0);
   EXPECT_EQ(surface.mesh.face_vertices, before.mesh.face_vertices);
-  CoarseSurface with_seam = surface_of(testing::cylinder(4));
-  EXPECT_EQ(mend_folds(with_seam, testing::CylinderModel()).num_before, 0);
+}
+
+// Their corner between the sides opens to 180 degrees as levels are added.
+TEST(MendFolds, NoTriangleKeepsTwoSidesOnACircle)
+{
+  CoarseSurface surface = surface_of(testing::cylinder(4));
+  const FoldStatistics done = mend_folds(surface, testing::CylinderModel());
+  EXPECT_EQ(done.num_before, 4);
+  EXPECT_EQ(done.num_left, 0);
+  expect_closed(surface);
+  EXPECT_EQ(mend_folds(surface, testing::CylinderModel()).num_before, 0);
 }
 
 // In the first case the arc ends beyond its triangle, in the second within it.
@@ -263,11 +272,12 @@ TEST(MendFolds, CutsAnArcThatIsHigherThanItsTriangle)
   }
 }
 
-// The child in the middle keeps a tenth of its height: no fold, but a needle.
+// The child in the middle keeps a fifth of its height: no fold, but a needle.
 TEST(MendFolds, CutsAnArcThatIsNearlyAsHighAsItsTriangle)
 {
   CoarseSurface surface = cube(2);
-  const DentedCube model(0.225);
+  const DentedCube model(0.08);
+  for (const double z : {0.0, 1.0}) move(surface, {0.5, 0.5, z}, {0.25, 0.2, z});
   const FoldStatistics done = mend_folds(surface, model);
   EXPECT_EQ(done.num_before, 0);
   EXPECT_GT(done.num_flips + done.num_cuts, 0);
