@@ -12,8 +12,11 @@
 namespace tessera::coarse {
 namespace {
 
-// In parts of the chord: lower arcs turn by less than 5 degrees, so no end needs to be looked at.
-constexpr double kFlat = 0.01;
+// In parts of the chord: lower arcs are straight.
+constexpr double kStraight = 1e-6;
+
+// In parts of the chord, an arc of 23 degrees: lower ones fold nothing, whatever their ends are.
+constexpr double kFlat = 0.05;
 
 // In parts of the arc's height: ends farther off are not on the geometry.
 constexpr double kOfHeight = 0.1;
@@ -96,19 +99,26 @@ double scaled_jacobian(const Vec3& u, const Vec3& v, const Vec3& w)
 }  // namespace
 
 Arcs::Arcs(const mesh::CoarseMesh& mesh, const model::Model& model)
+    : has_arc_(at(mesh.num_vertices()), 0)
 {
   Attempts projections("middles of edges on the geometry, to make room for arcs");
   for (const Side& side : sides_of(mesh)) {
     const Vec3 from = mesh.position(side.edge[0]);
     const Vec3 to = mesh.position(side.edge[1]);
     const auto bow = projections.run<GeometryError>([&] { return bow_of(model, side, from, to); });
-    arcs_.push_back({side.edge, arc_turn(to - from, bow.value_or(Vec3{}))});
+    if (!bow || norm(*bow) < kStraight * norm(to - from)) continue;
+    arcs_.push_back({side.edge, arc_turn(to - from, *bow)});
+    for (const LocalIndex end : side.edge) has_arc_[at(end)] = 1;
   }
 }
 
 Turns Arcs::of_tet(std::span<const LocalIndex, 4> tet) const
 {
   Turns turns{};
+  const auto has_arc = [&](LocalIndex v) {
+    return v != kNoIndex && at(v) < has_arc_.size() && has_arc_[at(v)] != 0;
+  };
+  if (std::ranges::count_if(tet, has_arc) < 2) return turns;
   for (std::size_t e = 0; e < turns.size(); ++e) {
     const auto& [i, j] = mesh::kTetEdgeCorners[e];
     const auto edge = mesh::sorted_edge(tet[i], tet[j]);

@@ -15,13 +15,14 @@ namespace tessera::coarse {
 // order of mesh::kTetEdgeCorners; nothing at edges inside.
 using Turns = std::array<Vec3, 6>;
 
-// The edges of a mesh that are on the geometry: each the circle through its ends and the point that
-// refinement puts beside its middle.
+// The edges of a mesh that bow as they are on the geometry: each the circle through its ends and
+// the point that refinement puts beside its middle.
 class Arcs {
  public:
   // What cannot be projected counts as straight.
   Arcs(const mesh::CoarseMesh& mesh, const model::Model& model);
 
+  // Vertices that are not of the mesh have no arcs.
   [[nodiscard]] Turns of_tet(std::span<const LocalIndex, 4> tet) const;
 
  private:
@@ -30,7 +31,8 @@ class Arcs {
     Vec3 turn{};
   };
 
-  std::vector<Arc> arcs_{};  // Ascending.
+  std::vector<Arc> arcs_{};      // Ascending.
+  std::vector<char> has_arc_{};  // Shape (num_vertices), or less.
 };
 
 // The least scaled Jacobian at a corner of a tet: that of the ways in which its edges begin there.

@@ -70,6 +70,13 @@ struct Cavity {
   Place vertex{.worst = -1.0};
 };
 
+bool folds_at_arcs(const mesh::CoarseMesh& mesh, const Arcs& arcs, LocalIndex t)
+{
+  const auto corners = corners_at<4>(mesh.vertex_xyz, mesh.tet_vertices, t);
+  const double with_arcs = least_jacobian(corners, arcs.of_tet(mesh.tet(t)));
+  return with_arcs < kFolding && with_arcs < kOfOwnShape * least_jacobian(corners, {});
+}
+
 // One round.
 class RoomMaker {
  public:
@@ -81,13 +88,12 @@ class RoomMaker {
         stars_(rows_by_key(mesh_.tet_vertices, mesh_.num_vertices(), 4)),
         changes_(mesh_)
   {
-    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) turns_.push_back(arcs.of_tet(mesh_.tet(t)));
   }
 
-  LocalIndex move_vertices()
+  LocalIndex move_vertices(const std::vector<LocalIndex>& folding)
   {
     LocalIndex num_moves = 0;
-    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
+    for (const LocalIndex t : folding) {
       for (const LocalIndex v : mesh_.tet(t)) {
         if (!folds(t)) break;
         num_moves += !geometry_.has_vertex(v) && move(v) ? 1 : 0;
@@ -98,17 +104,17 @@ class RoomMaker {
 
   // The last step of a round, as tets and vertices are others then. `is_near`: shape
   // (num_vertices), those whose tets are tried; then those whose tets have changed.
-  LocalIndex insert_vertices(std::vector<char>& is_near)
+  LocalIndex insert_vertices(const std::vector<LocalIndex>& folding, std::vector<char>& is_near)
   {
-    std::vector<LocalIndex> folding;
-    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
-      if (folds(t) && has_one_of(is_near, t)) folding.push_back(t);
+    std::vector<LocalIndex> tried;
+    for (const LocalIndex t : folding) {
+      if (folds(t) && has_one_of(is_near, t)) tried.push_back(t);
     }
-    if (folding.empty()) return 0;
+    if (tried.empty()) return 0;
     neighbours_ = mesh::find_tet_neighbours(mesh_.tet_vertices, mesh_.num_vertices());
     LocalIndex num_vertices = 0;
     std::ranges::fill(is_near, 0);
-    for (const LocalIndex t : folding) {
+    for (const LocalIndex t : tried) {
       if (!changes_.is_gone(t) && insert(t, is_near)) ++num_vertices;
     }
     apply();
@@ -116,18 +122,7 @@ class RoomMaker {
   }
 
  private:
-  [[nodiscard]] double own_shape(LocalIndex t) const { return least_jacobian(corners_of(t), {}); }
-
-  [[nodiscard]] double with_arcs(LocalIndex t) const
-  {
-    return least_jacobian(corners_of(t), turns_[at(t)]);
-  }
-
-  [[nodiscard]] bool folds(LocalIndex t) const
-  {
-    const double jacobian = with_arcs(t);
-    return jacobian < kFolding && jacobian < kOfOwnShape * own_shape(t);
-  }
+  [[nodiscard]] bool folds(LocalIndex t) const { return folds_at_arcs(mesh_, arcs_, t); }
 
   [[nodiscard]] bool has_one_of(const std::vector<char>& vertices, LocalIndex t) const
   {
@@ -143,22 +138,24 @@ class RoomMaker {
   bool move(LocalIndex v)
   {
     const Vec3 before = mesh_.position(v);
-    const auto around = [&](double (RoomMaker::*shape)(LocalIndex) const, double bound) {
+    std::vector<Turns> arcs;
+    for (const LocalIndex t : stars_[v]) arcs.push_back(arcs_.of_tet(mesh_.tet(t)));
+    const std::vector<Turns> chords(arcs.size());
+    const auto around = [&](const std::vector<Turns>& turns, double bound) {
       double worst = 1.0;
-      for (const LocalIndex t : stars_[v]) {
-        worst = std::min(worst, (this->*shape)(t));
-        if (worst <= bound) break;
+      for (std::size_t row = 0; row < turns.size() && worst > bound; ++row) {
+        worst = std::min(worst, least_jacobian(corners_of(stars_[v][row]), turns[row]));
       }
       return worst;
     };
-    const double least_shape = std::min(around(&RoomMaker::own_shape, -1.0), kFairShape);
+    const double least_shape = std::min(around(chords, -1.0), kFairShape);
     const auto worst_at = [&](const Vec3& xyz, double bound) {
       std::ranges::copy(xyz, &mesh_.vertex_xyz[3 * at(v)]);
-      const double worst = around(&RoomMaker::with_arcs, bound);
-      return worst <= bound || around(&RoomMaker::own_shape, -1.0) >= least_shape ? worst : -1.0;
+      const double worst = around(arcs, bound);
+      return worst <= bound || around(chords, -1.0) >= least_shape ? worst : -1.0;
     };
-    const Place best = climb({before, around(&RoomMaker::with_arcs, -1.0)},
-                             mean_distance(before, stars_[v]), worst_at);
+    const Place best =
+        climb({before, around(arcs, -1.0)}, mean_distance(before, stars_[v]), worst_at);
     std::ranges::copy(best.xyz, &mesh_.vertex_xyz[3 * at(v)]);
     return best.xyz != before;
   }
@@ -332,7 +329,6 @@ class RoomMaker {
   Geometry geometry_;
   IndexLists stars_;
   TetChanges changes_;
-  std::vector<Turns> turns_{};            // Shape (num_tets).
   std::vector<LocalIndex> neighbours_{};  // Of find_tet_neighbours().
 };
 
@@ -345,9 +341,14 @@ LocalIndex make_room_for_arcs(cut::CutMesh& filled, const model::Model& model)
   std::vector<char> is_near(at(filled.mesh.num_vertices()), 1);
   LocalIndex num_changes = 0;
   for (int round = 0; round < kRounds; ++round) {
+    std::vector<LocalIndex> folding;
+    for (LocalIndex t = 0; t < filled.mesh.num_tets(); ++t) {
+      if (folds_at_arcs(filled.mesh, arcs, t)) folding.push_back(t);
+    }
+    if (folding.empty()) break;
     RoomMaker maker(filled, arcs);
-    num_changes += maker.move_vertices();
-    const LocalIndex num_vertices = maker.insert_vertices(is_near);
+    num_changes += maker.move_vertices(folding);
+    const LocalIndex num_vertices = maker.insert_vertices(folding, is_near);
     num_changes += num_vertices;
     if (num_vertices == 0) break;
   }
