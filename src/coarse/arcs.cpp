@@ -7,6 +7,7 @@
 #include "tessera/base/arc.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::coarse {
@@ -96,6 +97,20 @@ double scaled_jacobian(const Vec3& u, const Vec3& v, const Vec3& w)
   return lengths > 0.0 ? dot(u, cross(v, w)) / lengths : 0.0;
 }
 
+// From corner to corner, as the edges begin there.
+using Ways = std::array<std::array<Vec3, 4>, 4>;
+
+Ways ways_of(const std::array<Vec3, 4>& corners, const Turns& turns)
+{
+  Ways way{};
+  for (std::size_t e = 0; e < turns.size(); ++e) {
+    const auto& [i, j] = mesh::kTetEdgeCorners[e];
+    way[i][j] = corners[j] - corners[i] + turns[e];
+    way[j][i] = corners[i] - corners[j] + turns[e];
+  }
+  return way;
+}
+
 }  // namespace
 
 Arcs::Arcs(const mesh::CoarseMesh& mesh, const model::Model& model)
@@ -130,16 +145,21 @@ Turns Arcs::of_tet(std::span<const LocalIndex, 4> tet) const
 
 double least_jacobian(const std::array<Vec3, 4>& corners, const Turns& turns)
 {
-  std::array<std::array<Vec3, 4>, 4> way{};
-  for (std::size_t e = 0; e < turns.size(); ++e) {
-    const auto& [i, j] = mesh::kTetEdgeCorners[e];
-    way[i][j] = corners[j] - corners[i] + turns[e];
-    way[j][i] = corners[i] - corners[j] + turns[e];
-  }
+  const Ways way = ways_of(corners, turns);
   return std::min({scaled_jacobian(way[0][1], way[0][2], way[0][3]),
                    scaled_jacobian(way[1][0], way[1][3], way[1][2]),
                    scaled_jacobian(way[2][3], way[2][0], way[2][1]),
                    scaled_jacobian(way[3][2], way[3][1], way[3][0])});
+}
+
+double least_jacobian_of_face(const std::array<Vec3, 4>& corners, const Turns& turns, std::size_t c)
+{
+  const Ways way = ways_of(corners, turns);
+  const auto& [i, j, k] = mesh::kTetFaceCorners[c];
+  const Vec3 normal = unit_normal_of({corners[i], corners[j], corners[k]});
+  return std::min({scaled_jacobian(way[i][j], way[i][k], normal),
+                   scaled_jacobian(way[j][k], way[j][i], normal),
+                   scaled_jacobian(way[k][i], way[k][j], normal)});
 }
 
 }  // namespace tessera::coarse

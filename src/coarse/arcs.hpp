@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,9 @@ class Arcs {
 // The least scaled Jacobian at a corner of a tet: that of the ways in which its edges begin there.
 // 0.71 for a regular tet with straight edges.
 [[nodiscard]] double least_jacobian(const std::array<Vec3, 4>& corners, const Turns& turns);
+
+// The same of the triangle opposite to corner `c`, seen along its normal.
+[[nodiscard]] double least_jacobian_of_face(const std::array<Vec3, 4>& corners, const Turns& turns,
+                                            std::size_t c);
 
 }  // namespace tessera::coarse

@@ -34,9 +34,14 @@ constexpr double kOfOwnShape = 0.9;
 constexpr double kLongestStep = 0.25;
 constexpr double kShortestStep = 0.01;
 
-constexpr int kRounds = 4;             // Of moves and new vertices.
-constexpr std::size_t kMostTets = 16;  // That a new vertex takes the place of.
-constexpr double kLeastOfNew = 0.1;    // Of the tets around a new vertex.
+constexpr int kRounds = 4;           // Of moves and new vertices.
+constexpr int kMostWithoutGain = 5;  // Tets that join a cavity in vain.
+constexpr double kLeastOfNew = 0.1;  // Of the tets around a new vertex.
+
+// Of all tets. Where more fold the edges of the surface are too long for it, and no vertex inside
+// helps: 0.13 of bottle.brep, whose thread winds round twice; of others at most 0.02.
+constexpr double kMostFolding = 0.05;
+constexpr double kAlwaysTried = 100.0;  // Tets; they take 0.3 s.
 
 struct Place {
   Vec3 xyz{};
@@ -108,9 +113,10 @@ class RoomMaker {
   {
     std::vector<LocalIndex> tried;
     for (const LocalIndex t : folding) {
-      if (folds(t) && has_one_of(is_near, t)) tried.push_back(t);
+      if (has_one_of(is_near, t) && folds(t) && !has_folding_face(t)) tried.push_back(t);
     }
-    if (tried.empty()) return 0;
+    const double most = kMostFolding * static_cast<double>(mesh_.num_tets());
+    if (tried.empty() || static_cast<double>(tried.size()) > std::max(most, kAlwaysTried)) return 0;
     neighbours_ = mesh::find_tet_neighbours(mesh_.tet_vertices, mesh_.num_vertices());
     LocalIndex num_vertices = 0;
     std::ranges::fill(is_near, 0);
@@ -123,6 +129,21 @@ class RoomMaker {
 
  private:
   [[nodiscard]] bool folds(LocalIndex t) const { return folds_at_arcs(mesh_, arcs_, t); }
+
+  // Then no vertex inside can help.
+  [[nodiscard]] bool has_folding_face(LocalIndex t) const
+  {
+    const std::array<Vec3, 4> corners = corners_of(t);
+    const Turns turns = arcs_.of_tet(mesh_.tet(t));
+    for (LocalIndex c = 0; c < 4; ++c) {
+      const Tet face = tet_on(4 * t + c, kNoIndex);
+      if (geometry_.patch_of(face[0], face[1], face[2]) != kNoIndex
+          && least_jacobian_of_face(corners, turns, at(c)) < kFolding) {
+        return true;
+      }
+    }
+    return false;
+  }
 
   [[nodiscard]] bool has_one_of(const std::vector<char>& vertices, LocalIndex t) const
   {
@@ -218,12 +239,15 @@ class RoomMaker {
       now.vertex.xyz = now.vertex.xyz
                        + (1.0 / static_cast<double>(now.tets.size())) * tet_centroid(corners_of(t));
     }
-    while (now.tets.size() <= kMostTets) {
+    for (int without_gain = 0; without_gain < kMostWithoutGain; ++without_gain) {
       find_faces(now);
-      const LocalIndex worst_face = place_vertex(now);
-      if (now.vertex.worst > best.vertex.worst && keeps_all(now)) best = now;
-      if (now.vertex.worst >= kEnough || !can_cross(worst_face)) break;
-      now.tets.push_back(neighbours_[at(worst_face)] / 4);
+      const LocalIndex way_on = place_vertex(now);
+      if (now.vertex.worst > best.vertex.worst && keeps_all(now)) {
+        best = now;
+        without_gain = 0;
+      }
+      if (now.vertex.worst >= kEnough || way_on == kNoIndex) break;
+      now.tets.push_back(neighbours_[at(way_on)] / 4);
     }
     return best;
   }
@@ -241,7 +265,7 @@ class RoomMaker {
     }
   }
 
-  // The face of the worst new tet then.
+  // The face of the worst new tet then, of those that may be crossed; kNoIndex if there is none.
   [[nodiscard]] LocalIndex place_vertex(Cavity& cavity) const
   {
     std::vector<std::array<Vec3, 4>> corners;
@@ -268,8 +292,15 @@ class RoomMaker {
     };
     const Vec3 from = cavity.vertex.xyz;
     cavity.vertex = climb({from, worst_at(from, -1.0)}, mean_distance(from, cavity.tets), worst_at);
-    static_cast<void>(worst_at(cavity.vertex.xyz, -1.0));
-    return cavity.faces[worst_row];
+    LocalIndex way_on = kNoIndex;
+    double worst = 1.0;
+    for (std::size_t row = 0; row < corners.size(); ++row) {
+      const double jacobian = jacobian_on(row, cavity.vertex.xyz);
+      if (jacobian >= worst || !can_cross(cavity.faces[row])) continue;
+      worst = jacobian;
+      way_on = cavity.faces[row];
+    }
+    return way_on;
   }
 
   // The tet of a vertex inside the cavity on one of its faces.
