@@ -12,7 +12,7 @@ namespace tessera::coarse {
 /// The children at the end of such an edge follow its tangent, the closer the more levels there
 /// are. So a positive tet may have children that are not, on a fine level only. Each tet is taken
 /// as one of second order here, with the middles of its edges on the geometry. Where its least
-/// scaled Jacobian at a corner is not positive, its vertices off the geometry go where the worst
+/// scaled Jacobian at a corner is below 0.05, its vertices off the geometry go where the worst
 /// tet around them is best. If it folds still, a new vertex takes its place and that of tets
 /// around. A tet whose triangle folds itself is left as it is.
 /// @param[in,out] filled New tets come last, and are of the part of the tets that they replace.

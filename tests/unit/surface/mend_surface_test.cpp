@@ -244,11 +244,14 @@ TEST(MendFolds, LeavesASoundSurfaceAsItIs)
 TEST(MendFolds, NoTriangleKeepsTwoSidesOnACircle)
 {
   CoarseSurface surface = surface_of(testing::cylinder(4));
-  const FoldStatistics done = mend_folds(surface, testing::CylinderModel());
-  EXPECT_EQ(done.num_before, 4);
-  EXPECT_EQ(done.num_left, 0);
+  const auto num_left = [&] {
+    const FoldStatistics done = mend_folds(surface, testing::CylinderModel());
+    EXPECT_EQ(done.num_before, 0) << "none folds on the first level";
+    return done.num_flips + done.num_cuts;
+  };
+  EXPECT_GE(num_left(), 4);
   expect_closed(surface);
-  EXPECT_EQ(mend_folds(surface, testing::CylinderModel()).num_before, 0);
+  EXPECT_EQ(num_left(), 0);
 }
 
 // In the first case the arc ends beyond its triangle, in the second within it.
