@@ -8,8 +8,8 @@ namespace tessera::surface {
 
 /// @brief What mend_folds() did.
 struct FoldStatistics {
-  LocalIndex num_before =
-      0;  ///< Triangles with a child of the first level that looks the other way.
+  /// Triangles with a child of the first level that looks the other way.
+  LocalIndex num_before = 0;
   LocalIndex num_left = 0;
   LocalIndex num_flips = 0;             ///< Also at corners and needles.
   LocalIndex num_cuts = 0;              ///< Of edges that got a vertex on the geometry; also there.

@@ -55,10 +55,10 @@ TEST(MakeRoom, MovesVerticesWhereChildrenOfFineLevelsWouldFold)
 {
   cut::CutMesh filled{.mesh = testing::kuhn_cube(4)};
   const mesh::CoarseMesh before = filled.mesh;
-  ASSERT_GT(num_folded(before, arches(0.07)), 0);
-  const testing::GraphModel model(arches(0.07));
+  ASSERT_GT(num_folded(before, arches(0.065)), 0);
+  const testing::GraphModel model(arches(0.065));
   EXPECT_GT(make_room_for_arcs(filled, model), 0);
-  EXPECT_EQ(num_folded(filled.mesh, arches(0.07)), 0);
+  EXPECT_EQ(num_folded(filled.mesh, arches(0.065)), 0);
   EXPECT_NO_THROW(mesh::validate(filled.mesh));
   EXPECT_EQ(filled.mesh.tet_vertices, before.tet_vertices);
   for (const LocalIndex v : before.face_vertices) {
@@ -99,7 +99,7 @@ TEST(MakeRoom, LeavesTetsThatHaveRoom)
 {
   cut::CutMesh filled{.mesh = testing::kuhn_cube(4)};
   const mesh::CoarseMesh before = filled.mesh;
-  for (const double height : {-0.07, 0.0, 0.04}) {
+  for (const double height : {-0.065, 0.0, 0.04}) {
     ASSERT_EQ(num_folded(before, arches(height)), 0);
     EXPECT_EQ(make_room_for_arcs(filled, testing::GraphModel(arches(height))), 0);
   }
