@@ -63,7 +63,7 @@ enum class Repair : int {
   illegal_tets,      ///< Tets with two faces on one patch are divided.
   worst_tets,        ///< Vertices are put into the worst tets.
   snapped_vertices,  ///< Vertices that are off the geometry are put onto it.
-  room_for_arcs,     ///< Vertices are moved where children of fine levels would fold at an arc.
+  room_for_arcs,     ///< Vertices go, or come, where children of fine levels would fold at an arc.
   // Fills.
   fill_tries,        ///< A subdomain is filled once more, as a try failed or was poor.
   subdivided_fills,  ///< Subdivision takes the place of a kernel that could not fill.
