@@ -23,7 +23,7 @@ class Arcs {
   // What cannot be projected counts as straight.
   Arcs(const mesh::CoarseMesh& mesh, const model::Model& model);
 
-  // Vertices that are not of the mesh have no arcs.
+  // Vertices that came later have no arcs, nor has kNoIndex.
   [[nodiscard]] Turns of_tet(std::span<const LocalIndex, 4> tet) const;
 
  private:
@@ -33,7 +33,7 @@ class Arcs {
   };
 
   std::vector<Arc> arcs_{};      // Ascending.
-  std::vector<char> has_arc_{};  // Shape (num_vertices), or less.
+  std::vector<char> has_arc_{};  // Shape (num_vertices): those of the constructor's mesh.
 };
 
 // The least scaled Jacobian at a corner of a tet: that of the ways in which its edges begin there.

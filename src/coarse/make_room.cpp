@@ -40,7 +40,6 @@ constexpr double kShortestStep = 0.01;
 
 constexpr int kRounds = 4;           // Of moves and new vertices.
 constexpr int kMostWithoutGain = 5;  // Tets that join a cavity in vain.
-constexpr double kLeastOfNew = 0.1;  // Of the tets around a new vertex.
 
 // Of all tets. Where more fold the edges of the surface are too long for it, and no vertex inside
 // helps: 0.13 of bottle.brep, whose thread winds round twice; of others at most 0.02.
@@ -140,9 +139,7 @@ class RoomMaker {
     const std::array<Vec3, 4> corners = corners_of(t);
     const Turns turns = arcs_.of_tet(mesh_.tet(t));
     for (LocalIndex c = 0; c < 4; ++c) {
-      const Tet face = tet_on(4 * t + c, kNoIndex);
-      if (geometry_.patch_of(face[0], face[1], face[2]) != kNoIndex
-          && least_jacobian_of_face(corners, turns, at(c)) < kFolding) {
+      if (is_on_geometry(4 * t + c) && least_jacobian_of_face(corners, turns, at(c)) < kFolding) {
         return true;
       }
     }
@@ -203,7 +200,7 @@ class RoomMaker {
       Cavity grown = grow(std::move(seed));
       if (grown.vertex.worst > best.vertex.worst) best = std::move(grown);
     }
-    if (best.vertex.worst < kLeastOfNew) return false;
+    if (best.vertex.worst < kEnough) return false;
     const LocalIndex v = mesh_.num_vertices();
     mesh_.vertex_xyz.insert(mesh_.vertex_xyz.end(), best.vertex.xyz.begin(), best.vertex.xyz.end());
     for (const LocalIndex face : best.faces) changes_.add(tet_on(face, v), t);
@@ -318,10 +315,14 @@ class RoomMaker {
   // Whether what lies behind a face may join a cavity of its tet.
   [[nodiscard]] bool can_cross(LocalIndex face) const
   {
-    if (neighbours_[at(face)] == kNoIndex) return false;
-    const Tet tet = tet_on(face, kNoIndex);
-    return geometry_.patch_of(tet[0], tet[1], tet[2]) == kNoIndex
+    return neighbours_[at(face)] != kNoIndex && !is_on_geometry(face)
            && can_join(neighbours_[at(face)] / 4, face / 4);
+  }
+
+  [[nodiscard]] bool is_on_geometry(LocalIndex face) const
+  {
+    const Tet tet = tet_on(face, kNoIndex);
+    return geometry_.patch_of(tet[0], tet[1], tet[2]) != kNoIndex;
   }
 
   [[nodiscard]] bool can_join(LocalIndex t, LocalIndex other) const

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <map>
 #include <memory>
@@ -70,29 +71,29 @@ class FoldMender {
       : groups_(surface, model),
         surface_(groups_.surface(), std::vector<double>(groups_.surface().vertex_xyz.size(), 0.0))
   {
-  }
-
-  // What it finds from here on.
-  void aim_at(Aim aim)
-  {
-    aim_ = aim;
     find();
   }
 
+  // What it mends from here on.
+  void aim_at(Aim aim) { aim_ = aim; }
+
   void find()
   {
-    found_.clear();
-    has_folds_ = false;
+    for (std::vector<LocalIndex>& found : found_) found.clear();
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       if (!surface_.is_triangle(t)) continue;
-      const double share = share_of_children(surface_.triangle(t), surface_.patch(t));
-      if (is_bad(t, share)) found_.push_back(t);
-      has_folds_ = has_folds_ || share <= 0.0;
+      const Triangle& v = surface_.triangle(t);
+      const double share = share_of_children(v, surface_.patch(t));
+      if (share <= 0.0) of(Aim::folds).push_back(t);
+      if (share_of_corners(v, surface_.patch(t)) <= kLeastShareOfCorners) {
+        of(Aim::corners).push_back(t);
+      }
+      if (share <= 0.0 || (share <= kLeastShare && !is_at_a_tip(t))) of(Aim::needles).push_back(t);
     }
   }
 
-  [[nodiscard]] LocalIndex num_found() const { return static_cast<LocalIndex>(found_.size()); }
-  [[nodiscard]] bool has_folds() const { return has_folds_; }
+  [[nodiscard]] LocalIndex num_found() { return static_cast<LocalIndex>(of(aim_).size()); }
+  [[nodiscard]] bool has_folds() { return !of(Aim::folds).empty(); }
   // Whether its surface may be another than the one it was given.
   [[nodiscard]] bool has_tried() const { return has_tried_; }
 
@@ -102,7 +103,7 @@ class FoldMender {
     has_tried_ = true;
     touched_.clear();
     const LocalIndex before = done.num_flips + done.num_cuts;
-    for (const LocalIndex t : found_) {
+    for (const LocalIndex t : of(aim_)) {
       if (touched_.contains(t)) continue;
       if (flip_one_of(t)) {
         ++done.num_flips;
@@ -121,13 +122,9 @@ class FoldMender {
   [[nodiscard]] CoarseSurface take() const { return groups_.take(surface_); }
 
  private:
-  // `share`: of the triangle's children.
-  [[nodiscard]] bool is_bad(LocalIndex t, double share)
+  [[nodiscard]] std::vector<LocalIndex>& of(Aim aim)
   {
-    if (aim_ == Aim::corners) {
-      return share_of_corners(surface_.triangle(t), surface_.patch(t)) <= kLeastShareOfCorners;
-    }
-    return share <= 0.0 || (aim_ == Aim::needles && share <= kLeastShare && !is_at_a_tip(t));
+    return found_[static_cast<std::size_t>(aim)];
   }
 
   // Between two curves that meet: what is narrow there is the model's.
@@ -374,8 +371,7 @@ class FoldMender {
   EditableSurface surface_;
   std::map<Edge, Vec3> middles_{};  // Of all edges that were asked for; no vertex moves.
   Attempts projections_{"middles of edges on the geometry, to find folds"};
-  std::vector<LocalIndex> found_{};
-  bool has_folds_ = false;
+  std::array<std::vector<LocalIndex>, 3> found_{};  // Of each aim.
   Aim aim_ = Aim::folds;
   bool has_tried_ = false;
   std::set<LocalIndex> touched_{};  // Triangles that this round has changed.
