@@ -122,6 +122,12 @@ class OccGeometry final : public ::netgen::OCCGeometry {
   mutable std::vector<::netgen::Point<3>> apices_{};  // Of the face that is being meshed.
 };
 
+/// @brief Keeps NETGEN's optimiser from beginning at a tet, counted from 0.
+inline void fix_tet(::netgen::Mesh& mesh, int tet)
+{
+  mesh[::netgen::ElementIndex(tet)].Flags().fixed = true;
+}
+
 /// @brief Fills a surface with tets.
 /// @throws ::netgen::NgException if the surface is open, cuts itself, or cannot be filled.
 void mesh_volume(const ::netgen::MeshingParameters& parameters, ::netgen::Mesh& mesh);
@@ -164,6 +170,11 @@ template <class T>
 using NetgenArray = ::netgen::Array<T>;
 
 inline void use_one_thread(::netgen::MeshingParameters& /*parameters*/) {}
+
+inline void fix_tet(::netgen::Mesh& mesh, int tet)
+{
+  mesh[::netgen::ElementIndex(tet)].flags.fixed = true;
+}
 
 [[nodiscard]] inline std::shared_ptr<::netgen::Mesh> empty_mesh(
     ::netgen::NetgenGeometry& /*geometry*/)

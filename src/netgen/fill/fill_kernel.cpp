@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <meshing.hpp>
 
+#include "tessera/base/tet.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/quality/tet_quality.hpp"
 
 #include "netgen/fill/skin_mesh.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -141,6 +146,33 @@ constexpr const char* kStepsForStart = "s";
   return parameters;
 }
 
+// Children with this mean ratio are as good as swaps make them.
+//
+// On five models with a lattice inside, all children took 1.6 times as long as those below 0.8:
+// then the mean of the mean ratio falls by 0.0001 on average, and no 1st percentile by more than
+// 0.002. Below 0.75 it falls by 0.0003.
+constexpr double kGood = 0.8;
+
+// Leaves to NETGEN the tets that are not good, and those with two of their vertices: all that a
+// swap of an edge of theirs takes. Most others are of a lattice. NETGEN begins at no fixed tet.
+void fix_good_tets(const FillOutput& start, ::netgen::Mesh& mesh)
+{
+  const std::size_t num_tets = start.tet_vertices.size() / 4;
+  std::vector<std::uint8_t> is_of_poor_tet(start.vertex_xyz.size() / 3, 0);
+  for (std::size_t t = 0; t < num_tets; ++t) {
+    if (quality::mean_ratio(corners_at<4>(start.vertex_xyz, start.tet_vertices, t)) >= kGood) {
+      continue;
+    }
+    for (std::size_t c = 0; c < 4; ++c) is_of_poor_tet[at(start.tet_vertices[4 * t + c])] = 1;
+  }
+  for (std::size_t t = 0; t < num_tets; ++t) {
+    const auto tet = std::span(start.tet_vertices).subspan(4 * t, 4);
+    const auto num_poor =
+        std::ranges::count_if(tet, [&](LocalIndex v) { return is_of_poor_tet[at(v)] != 0; });
+    if (num_poor < 2) fix_tet(mesh, static_cast<int>(t));
+  }
+}
+
 class FillKernel final : public fill::Kernel {
  public:
   [[nodiscard]] FillOutput fill(const FillInput& input,
@@ -163,6 +195,7 @@ class FillKernel final : public fill::Kernel {
     add_surface(mesh, input.start.vertex_xyz, input.triangle_vertices,
                 point_order(num_vertices, 0));
     add_tets(mesh, input.start.tet_vertices);
+    fix_good_tets(input.start, mesh);
     ::netgen::OptimizeVolume(session.parameters(), mesh);
     mesh.Compress();
     return tets_of(mesh, point_order(num_skin_vertices(input), 0));
