@@ -7,7 +7,7 @@ std::string_view version() noexcept { return TESSERA_VERSION; }
 
 std::string record_version(std::string_view library)
 {
-  return std::string(library) + ", records 25";
+  return std::string(library) + ", records 26";
 }
 
 }  // namespace tessera

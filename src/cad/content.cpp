@@ -2,6 +2,7 @@
 #include "cad/content.hpp"
 
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -29,13 +30,22 @@ struct StoredContent {
   std::vector<std::string> solid_names{};
   std::vector<LocalIndex> solid_body{};
   bool may_overlap = false;
+  std::optional<RoughFigures> figures{};
 
   static auto fields(auto& self)
   {
     return std::tie(self.image, self.face_names, self.face_colours, self.given_face,
-                    self.edge_names, self.solid_names, self.solid_body, self.may_overlap);
+                    self.edge_names, self.solid_names, self.solid_body, self.may_overlap,
+                    self.figures);
   }
 };
+
+// An only solid has triangles since it was asked which side of its faces is inside.
+std::optional<RoughFigures> known_figures(const TopoDS_Shape& shape)
+{
+  if (count_of(shape, TopAbs_SOLID) != 1) return std::nullopt;
+  return rough_figures_of(shape, box_diagonal_of(shape));
+}
 
 }  // namespace
 
@@ -43,8 +53,10 @@ Bytes occ_content(const CadFile& cad)
 {
   std::ostringstream image(std::ios::binary);
   BinTools::Write(cad.shape, image, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
-  StoredContent content{
-      .image = image.str(), .solid_body = cad.solid_body, .may_overlap = cad.may_overlap};
+  StoredContent content{.image = image.str(),
+                        .solid_body = cad.solid_body,
+                        .may_overlap = cad.may_overlap,
+                        .figures = known_figures(cad.shape)};
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
   for (int f = 1; f <= faces.Extent(); ++f) {
@@ -107,6 +119,7 @@ OccContent read_occ_content(std::span<const std::byte> bytes)
   content.solid_names = std::move(stored.solid_names);
   content.solid_body = std::move(stored.solid_body);
   content.may_overlap = stored.may_overlap;
+  content.figures = stored.figures;
   return content;
 }
 

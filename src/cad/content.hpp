@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "tessera/model/model.hpp"
 
 #include "cad/cad_file.hpp"
+#include "cad/shape.hpp"
 
 namespace tessera::cad {
 
@@ -26,6 +28,7 @@ struct OccContent {
   std::vector<std::string> solid_names{};   ///< In the order of TopExp_Explorer.
   std::vector<LocalIndex> solid_body{};     ///< Beside solid_names: as in CadFile, never empty.
   bool may_overlap = false;                 ///< As in CadFile.
+  std::optional<RoughFigures> figures{};    ///< Of an only solid; of others they take long.
 };
 
 /// @brief ModelSource::content of a CAD file. Local.

@@ -192,7 +192,8 @@ FlatArray<LocalIndex> CadModel::material_rows() const
 coarse::ModelFigures CadModel::figures() const
 {
   return with_occ_errors(file_name_, [&] {
-    const RoughFigures rough = rough_figures_of(content_.shape, box_diagonal_);
+    const RoughFigures rough =
+        content_.figures ? *content_.figures : rough_figures_of(content_.shape, box_diagonal_);
     return coarse::ModelFigures{
         .num_faces = faces_.Extent(), .area = rough.area, .volume = rough.volume};
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include <TopAbs_ShapeEnum.hxx>
@@ -33,6 +34,8 @@ struct RoughFigures {
   double volume = 0.0;  ///< Negative if faces look inwards.
   double area = 0.0;
   double deflection = 0.0;  ///< How far the triangles may be off the faces.
+
+  static auto fields(auto& self) { return std::tie(self.volume, self.area, self.deflection); }
 };
 
 /// @brief Takes a fraction of the time that integrals over free-form faces take. A face that gets

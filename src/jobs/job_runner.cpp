@@ -127,7 +127,8 @@ void JobRunner::cap_limits(const JobLimits& largest) { state_->largest = largest
 
 std::string JobRunner::open_to_node()
 {
-  state_->link.end_model();  // With what it has loaded: all begin alike.
+  // With what it has loaded: all begin alike.
+  if (state_->link.num_calls > 0) state_->link.end_model();
   std::string name = make_node_name();
   const JobOutcome outcome =
       state_->call(PacketKind::open_door, std::as_bytes(std::span(name)), {}, {});

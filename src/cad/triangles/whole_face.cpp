@@ -18,6 +18,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/base/types.hpp"
 
 namespace tessera::cad {
@@ -127,14 +128,8 @@ class FaceTriangles {
   [[nodiscard]] bool follow_surface(double deflection) const
   {
     if (mesh_.IsNull() || !mesh_->HasUVNodes()) return true;
-    for (int t = 1; t <= mesh_->NbTriangles(); ++t) {
-      std::array<int, 3> nodes{};
-      mesh_->Triangle(t).Get(nodes[0], nodes[1], nodes[2]);
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (is_off(nodes[c], nodes[(c + 1) % 3], deflection)) return false;
-      }
-    }
-    return true;
+    return std::ranges::none_of(
+        edges(), [&](const Segment& edge) { return is_off(edge.first, edge.second, deflection); });
   }
 
  private:
@@ -142,6 +137,21 @@ class FaceTriangles {
     gp_Pnt point{};
     std::array<gp_Vec, 2> slopes{};
   };
+
+  // Each edge once.
+  [[nodiscard]] std::vector<Segment> edges() const
+  {
+    std::vector<Segment> edges;
+    for (int t = 1; t <= mesh_->NbTriangles(); ++t) {
+      std::array<int, 3> nodes{};
+      mesh_->Triangle(t).Get(nodes[0], nodes[1], nodes[2]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        edges.emplace_back(std::minmax(nodes[c], nodes[(c + 1) % 3]));
+      }
+    }
+    sort_unique(edges);
+    return edges;
+  }
 
   [[nodiscard]] Place place_at(const gp_XY& uv) const
   {
