@@ -70,9 +70,13 @@ OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods, 
     double to = 0.0;
     const auto curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, from, to);
     if (curve.IsNull()) continue;
+    const Geom2dAdaptor_Curve along(curve, from, to);
     const double step = (to - from) / kNumFirstSteps;
-    for (int i = 0; i < kNumFirstSteps; ++i) {
-      mark_boundary(curve, from + i * step, from + (i + 1) * step, kMaxHalvings);
+    CurvePoint before = point_on(along, from);
+    for (int i = 1; i <= kNumFirstSteps; ++i) {
+      const CurvePoint next = point_on(along, from + i * step);
+      mark_boundary(along, before, next, kMaxHalvings);
+      before = next;
     }
   }
   // No edge passes between cells that are left, so one answer holds for all that hang together.
@@ -143,19 +147,24 @@ bool OccTrim::is_on_grid(const Place& place) const
 
 OccTrim::Cell& OccTrim::cell(const Place& place) { return cells_[index_of(place)]; }
 
-// Marks the cells round a piece of an edge, in steps no longer than half a cell.
-void OccTrim::mark_boundary(const Handle(Geom2d_Curve) & curve, double first, double last,
-                            int depth)
+OccTrim::CurvePoint OccTrim::point_on(const Geom2dAdaptor_Curve& curve, double t)
 {
-  const gp_Pnt2d begin = curve->Value(first);
-  const gp_Pnt2d end = curve->Value(last);
-  const bool is_short = std::abs(end.X() - begin.X()) <= 0.5 * cell_size_[0]
-                        && std::abs(end.Y() - begin.Y()) <= 0.5 * cell_size_[1];
+  const gp_Pnt2d point = curve.Value(t);
+  return {t, {point.X(), point.Y()}};
+}
+
+// Marks the cells round a piece of an edge, in steps no longer than half a cell.
+void OccTrim::mark_boundary(const Geom2dAdaptor_Curve& curve, const CurvePoint& first,
+                            const CurvePoint& last, int depth)
+{
+  const bool is_short = std::abs(last.uv[0] - first.uv[0]) <= 0.5 * cell_size_[0]
+                        && std::abs(last.uv[1] - first.uv[1]) <= 0.5 * cell_size_[1];
   if (is_short || depth == 0) {
-    for (const gp_Pnt2d& point : {begin, end}) mark_around(place_of({point.X(), point.Y()}));
+    mark_around(place_of(first.uv));
+    mark_around(place_of(last.uv));
     return;
   }
-  const double middle = 0.5 * (first + last);
+  const CurvePoint middle = point_on(curve, 0.5 * (first.t + last.t));
   mark_boundary(curve, first, middle, depth - 1);
   mark_boundary(curve, middle, last, depth - 1);
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <BRepTopAdaptor_FClass2d.hxx>
-#include <Geom2d_Curve.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
 #include <TopoDS_Face.hxx>
 
 #include "tessera/model/model.hpp"
@@ -39,6 +39,10 @@ class OccTrim {
  private:
   enum class Cell : char { unknown, boundary, inside, outside };
   using Place = std::array<int, 2>;
+  struct CurvePoint {  // Of an edge in the face's parameters.
+    double t = 0.0;
+    Uv uv{};
+  };
 
   [[nodiscard]] Cell state_at(const Uv& uv) const;
   [[nodiscard]] Cell state_on_branch(const Uv& uv) const;
@@ -50,7 +54,9 @@ class OccTrim {
     return at(place[0] * num_cells_ + place[1]);
   }
   [[nodiscard]] Cell& cell(const Place& place);
-  void mark_boundary(const Handle(Geom2d_Curve) & curve, double first, double last, int depth);
+  [[nodiscard]] static CurvePoint point_on(const Geom2dAdaptor_Curve& curve, double t);
+  void mark_boundary(const Geom2dAdaptor_Curve& curve, const CurvePoint& first,
+                     const CurvePoint& last, int depth);
   void mark_around(const Place& place);
   void fill_from(const Place& start, Cell state);
 

@@ -151,7 +151,7 @@ constexpr const char* kStepsForStart = "s";
 // On five models with a lattice inside, all children took 1.6 times as long as those below 0.8:
 // then the mean of the mean ratio falls by 0.0001 on average, and no 1st percentile by more than
 // 0.002. Below 0.75 it falls by 0.0003.
-constexpr double kGood = 0.8;
+constexpr double kGood = 0.75;
 
 // Leaves to NETGEN the tets that are not good, and those with two of their vertices: all that a
 // swap of an edge of theirs takes. Most others are of a lattice. NETGEN begins at no fixed tet.
