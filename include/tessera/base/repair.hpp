@@ -25,6 +25,7 @@ enum class Repair : int {
   turned_solids,      ///< Solids that are inside out are turned.
   overlapping_edges,  ///< Edges of a solid that lie on each other become one.
   glued_solids,       ///< Touching solids get common faces.
+  flaps,              ///< Faces that bound a solid from both sides are taken away.
   wider_glue_gap,     ///< Solids are glued over a gap, as they would else be cut into films.
   closed_gaps,        ///< Solids that nearly touch get common faces.
   // Triangles of OpenCASCADE.
@@ -122,6 +123,7 @@ constexpr auto enum_words(Repair /*type*/)
       {turned_solids, "turned_solids"},
       {overlapping_edges, "overlapping_edges"},
       {glued_solids, "glued_solids"},
+      {flaps, "flaps"},
       {wider_glue_gap, "wider_glue_gap"},
       {closed_gaps, "closed_gaps"},
       {face_from_boundary, "face_from_boundary"},

@@ -18,6 +18,7 @@
 #include "tessera/base/repair.hpp"
 
 #include "cad/heal/common_parts.hpp"
+#include "cad/heal/flaps.hpp"
 #include "cad/heal/gaps.hpp"
 #include "cad/shape.hpp"
 
@@ -167,7 +168,7 @@ class Gluing {
       cad_.repairs.emplace_back(
           fmt::format("overlapping solids were cut: {} became {}", num_given, num_solids));
     }
-    return fused.shape;
+    return without_flaps(fused.shape, cad_);
   }
 
   const Shapes& solids_;

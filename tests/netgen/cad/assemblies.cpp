@@ -6,7 +6,12 @@
 #include <stdexcept>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
@@ -16,6 +21,7 @@
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopLoc_Location.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
@@ -86,6 +92,34 @@ AssemblyModel stairs()
   return model;
 }
 
+TopoDS_Shape polygon(const std::vector<gp_Pnt>& corners)
+{
+  BRepBuilderAPI_MakePolygon sides;
+  for (const gp_Pnt& corner : corners) sides.Add(corner);
+  sides.Close();
+  return BRepBuilderAPI_MakeFace(sides.Wire(), Standard_True).Shape();
+}
+
+// A block of size 1, one face of which goes on upwards as a flap: two faces, one on the other.
+Body lead()
+{
+  BRepBuilderAPI_Sewing sewing;
+  for (const TopoDS_Shape& face :
+       {polygon({{3, 1, 0}, {3, 2, 0}, {4, 2, 0}, {4, 1, 0}}),
+        polygon({{3, 1, 1}, {4, 1, 1}, {4, 2, 1}, {3, 2, 1}}),
+        polygon({{3, 1, 0}, {3, 1, 1}, {3, 2, 1}, {3, 2, 0}}),
+        polygon({{3, 1, 0}, {4, 1, 0}, {4, 1, 1}, {3, 1, 1}}),
+        polygon({{3, 2, 0}, {3, 2, 1}, {4, 2, 1}, {4, 2, 0}}),
+        polygon({{4, 1, 0}, {4, 2, 0}, {4, 2, 1}, {4, 2, 2}, {4, 1, 2}, {4, 1, 1}}),
+        polygon({{4, 1, 1}, {4, 1, 2}, {4, 2, 2}, {4, 2, 1}})}) {
+    sewing.Add(face);
+  }
+  sewing.Perform();
+  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape())).Solid();
+  BRepLib::OrientClosedSolid(solid);
+  return {"lead", solid, 1.0};
+}
+
 std::vector<AssemblyModel> touching()
 {
   return {
@@ -111,6 +145,7 @@ std::vector<AssemblyModel> touching()
       {"boxes_at_line",
        {box("a", gp_Pnt(0, 0, 0), 1, 1, 1), box("b", gp_Pnt(1, 1, 0), 1, 1, 1)},
        {}},
+      {"lead_with_flap", {box("block", gp_Pnt(0, 0, 1), 4, 4, 2), lead()}, {{{1, 2}, 1.0}}},
       {"apart", {box("a", gp_Pnt(0, 0, 0), 1, 1, 1), box("b", gp_Pnt(2, 0, 0), 1, 1, 1)}, {}},
   };
 }

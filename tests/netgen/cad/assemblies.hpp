@@ -30,7 +30,7 @@ struct AssemblyModel {
   std::vector<Meeting> overlaps{};  ///< Without them, touches are all that there is.
 };
 
-/// @brief Boxes and round bodies in fifteen ways; in the last five they overlap.
+/// @brief Boxes and round bodies in sixteen ways; in the last five they overlap.
 [[nodiscard]] std::vector<AssemblyModel> assemblies();
 
 /// @brief The one of that name.

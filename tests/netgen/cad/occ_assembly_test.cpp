@@ -243,5 +243,12 @@ TEST_F(OccAssembly, TakesASolidOnceThatIsThereTwiceAndSaysSo)
       << source.repairs.front();
 }
 
+TEST_F(OccAssembly, TakesAwayWhatASolidHasOnBothSidesOfAFaceOfAnother)
+{
+  const model::ModelSource source = read(testing::assembly("lead_with_flap"));
+  EXPECT_TRUE(contains(source.repairs.back(), "1 faces bounded a solid from both sides"))
+      << source.repairs.back();
+}
+
 }  // namespace
 }  // namespace tessera
