@@ -8,12 +8,14 @@
 #include <utility>
 
 #include <BinTools.hxx>
+#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
 
 #include "cad/error.hpp"
 #include "cad/shape.hpp"
@@ -44,7 +46,12 @@ struct StoredContent {
 std::optional<RoughFigures> known_figures(const TopoDS_Shape& shape)
 {
   if (count_of(shape, TopAbs_SOLID) != 1) return std::nullopt;
-  return rough_figures_of(shape, box_diagonal_of(shape));
+  try {
+    return rough_figures_of(shape, box_diagonal_of(shape));
+  } catch (const Standard_Failure& failure) {
+    note_given_up("figures of the model", error_of(failure));
+    return std::nullopt;
+  }
 }
 
 }  // namespace

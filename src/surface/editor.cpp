@@ -17,11 +17,6 @@ namespace {
 using Edge = SurfaceEditor::Edge;
 using Triangle = SurfaceEditor::Triangle;
 
-// Of needles a flip must make the worst shape better by this part: kGain would be more than they
-// have, and they would stay as they are.
-constexpr double kGainOfNeedles = 0.3;
-constexpr double kLeastGain = 1e-9;
-
 constexpr double kTurnedOver = -1.0;
 constexpr double kUnknown = -2.0;
 
@@ -221,9 +216,7 @@ double SurfaceEditor::fair_shape(LocalIndex v)
 bool SurfaceEditor::flip_if_better(const Edge& edge)
 {
   const auto found = surface_.flipped(edge);
-  if (!found) return false;
-  const double before = std::max(worst_shape(found->triangles), 0.0);
-  return flip(*found, before + std::clamp(kGainOfNeedles * before, kLeastGain, kGain));
+  return found && flip(*found, std::max(worst_shape(found->triangles), 0.0) + kGain);
 }
 
 bool SurfaceEditor::flip(const Edge& edge, double least)

@@ -17,7 +17,7 @@ MAKER = pathlib.Path(program.PROGRAM).parent / "assembly_models"
 
 # Models of the maker that overlap, on purpose; of one a body is there twice.
 OVERLAPPING = {"inclusion", "overlapping_corners", "pin_through_plate", "three_overlaps", "twice"}
-NUM_MODELS = 16
+NUM_MODELS = 17
 
 
 def areas_between_materials(folder):

@@ -15,7 +15,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "model": CORE,
     "geometry": CORE | {"model", "cut", "surface", "coarse", "io"},
     "cad": CORE | {"model", "cut", "surface", "coarse", "geometry"},
-    "netgen": CORE | {"model", "cut", "surface", "coarse", "fill", "io", "geometry", "cad"},
+    "netgen": CORE | {"model", "cut", "surface", "coarse", "fill", "quality", "io", "geometry", "cad"},
     "surface": CORE | {"model", "cut", "delaunay"},
     "coarse": CORE | {"model", "cut", "surface", "delaunay", "optimize", "quality"},
     "cut": CORE | {"model"},

@@ -65,33 +65,15 @@ class Divider {
       lengths_.push_back(editor.relative_length(mesh::sorted_edge(chain[i - 1], chain[i])));
     }
     next_at_ = lengths_.front();
-    const double whole = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
-    const double least = chain.front() == chain.back() ? kLeastOfLoop : 1.0;
-    count_ = static_cast<int>(std::max(least, std::round(whole)));
-    spacing_ = whole / count_;
-  }
-
-  // Splits the edges that would get more than some vertices; whether there were such.
-  bool halve_long_edges()
-  {
-    constexpr double kMostOfFan = 8.0;
-    bool has_split = false;
-    double from = 0.0;
-    for (std::size_t i = 0; i < lengths_.size(); ++i) {
-      const double to = from + lengths_[i];
-      if (to - from > kMostOfFan * spacing_) {
-        const double place = spacing_ * std::round(0.5 * (from + to) / spacing_);
-        split(chain_[i], chain_[i + 1], (place - from) / (to - from));
-        has_split = true;
-      }
-      from = to;
-    }
-    return has_split;
   }
 
   void run()
   {
-    for (int i = 1; i < count_; ++i) put_vertex(i * spacing_, kNear * spacing_);
+    const double whole = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
+    const double least = chain_.front() == chain_.back() ? kLeastOfLoop : 1.0;
+    const auto count = static_cast<int>(std::max(least, std::round(whole)));
+    const double spacing = whole / count;
+    for (int i = 1; i < count; ++i) put_vertex(i * spacing, kNear * spacing);
     while (next_ + 1 < chain_.size()) pass_next(true);
     for (const LocalIndex v : gone_) leave(v);
   }
@@ -134,15 +116,10 @@ class Divider {
     }
     if (std::abs(next_at_ - place) <= near && next_ + 1 < chain_.size()) return take_next(place);
     if (next_at_ < place && next_ + 1 < chain_.size()) pass_next(true);
-    last_ = split(last_, chain_[next_], (place - last_at_) / (next_at_ - last_at_));
+    const Edge edge = mesh::sorted_edge(last_, chain_[next_]);
+    const double part = (place - last_at_) / (next_at_ - last_at_);
+    last_ = editor_.split(edge, edge[0] == last_ ? part : 1.0 - part);
     last_at_ = place;
-  }
-
-  // The new vertex, at this part of the way.
-  LocalIndex split(LocalIndex from, LocalIndex to, double part)
-  {
-    const Edge edge = mesh::sorted_edge(from, to);
-    return editor_.split(edge, edge[0] == from ? part : 1.0 - part);
   }
 
   // Into the nearer one of its neighbours, if that can be.
@@ -161,8 +138,6 @@ class Divider {
   SurfaceEditor& editor_;
   const Chain& chain_;
   std::vector<double> lengths_{};  // In parts of the wanted ones.
-  int count_ = 1;                  // Of edges that the chain is to have.
-  double spacing_ = 1.0;           // Their length in parts of the wanted one.
   std::vector<LocalIndex> gone_{};
   LocalIndex last_ = chain_.front();
   double last_at_ = 0.0;
@@ -195,17 +170,6 @@ void show_sizes(SurfaceEditor& editor)
 }
 
 }  // namespace
-
-bool halve_long_edges(SurfaceEditor& editor)
-{
-  editor.begin_pass();
-  show_sizes(editor);
-  bool has_split = false;
-  for (const Chain& chain : ChainFinder(editor.surface()).run()) {
-    has_split = Divider(editor, chain).halve_long_edges() || has_split;
-  }
-  return has_split;
-}
 
 void divide_curves(SurfaceEditor& editor)
 {

@@ -103,7 +103,6 @@ class Remesher {
 
   void divide_curves_for(const PeriodicRims* rims)
   {
-    while (halve_long_edges(editor_)) flip_edges();
     divide_curves(editor_);
     if (rims != nullptr) rims->match(editor_);
   }

@@ -263,16 +263,6 @@ TEST(Remesh, HasShortEdgesInANarrowStripAndNotElsewhere)
       narrow_strips_of(EditableSurface(plate, std::vector<double>(8, 1.0)), merging).empty());
 }
 
-TEST(Remesh, OfALongBarHasNoMoreTrianglesThanItsSizesAskFor)
-{
-  PatchSurface bar = cube();
-  for (Vec3& p : bar.vertex_xyz) p = {500.0 * p[0], p[1], 0.3 * p[2]};
-  const PatchSurface fine = remesh(SurfaceReference(bar), of_size(1.0));
-  EXPECT_NO_THROW(validate(fine));
-  EXPECT_LT(longest_edge(fine), 2.0);
-  EXPECT_LT(fine.triangles.size(), 6000U) << "four strips with some 500 edges on each side";
-}
-
 TEST(Remesh, PutsVerticesOfCurvesOnTheModel)
 {
   // Each edge of the cube is bent outwards by a little.
