@@ -129,7 +129,7 @@ int rank_of_node_in_environment()
 }
 
 // Lets the process that jobs are forked from load NETGEN and OpenCASCADE while MPI starts, which
-// mostly waits: each takes 0.2 s. Not on ranks that will join the process of another one.
+// mostly waits. Not on ranks that will join the process of another one.
 void prepare_jobs(int argc, char** argv)
 {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));

@@ -28,7 +28,7 @@ struct OccContent {
   std::vector<std::string> solid_names{};   ///< In the order of TopExp_Explorer.
   std::vector<LocalIndex> solid_body{};     ///< Beside solid_names: as in CadFile, never empty.
   bool may_overlap = false;                 ///< As in CadFile.
-  std::optional<RoughFigures> figures{};    ///< Of an only solid; of others they take long.
+  std::optional<RoughFigures> figures{};    ///< Of an only solid, which has triangles.
 };
 
 /// @brief ModelSource::content of a CAD file. Local.

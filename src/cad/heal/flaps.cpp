@@ -5,6 +5,7 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
@@ -13,6 +14,7 @@
 #include "tessera/base/repair.hpp"
 
 #include "cad/heal/fuse.hpp"
+#include "cad/heal/glue.hpp"
 #include "cad/shape.hpp"
 
 namespace tessera::cad {
@@ -68,8 +70,11 @@ TopoDS_Shape without_flaps(const TopoDS_Shape& fused, CadFile& cad)
     solids.push_back(kept.IsNull() ? solid : kept);
     if (kept.IsNull() || flaps.IsEmpty()) continue;
     num_flaps += flaps.Extent();
-    const ShapeLabel label = label_in(cad.names, solid);
-    cad.names.Bind(kept, label);
+    follow_names(solid, cad.names, [&](const TopoDS_Shape& part) {
+      TopTools_ListOfShape images;
+      if (part.IsSame(solid)) images.Append(kept);
+      return images;
+    });
   }
   if (num_flaps == 0) return fused;
   note_repair(Repair::flaps, num_flaps);
